@@ -1,0 +1,99 @@
+// contact_table.hpp: the near pairs of grains (one row each) and of grains with walls, with histories and forces.
+#pragma once
+
+#include <cstdint>
+
+#include "core/particles.hpp"
+
+namespace wedge {
+
+/// Half list of near pairs. Row k is the pair of grain first[k] and slot second[k] (a grain or an image). The grain
+/// with the smaller id is `first`, so a pair is stored once, seam pairs included, and a history never changes sides.
+/// A row's identity is (id of first, partner_id, turn); `history` and `normal` are in the frame of `first`.
+/// Rows of one grain are consecutive: those of grain i are row_begin[i] .. row_begin[i+1]-1.
+struct ContactTable {
+  Array<Index> row_begin;           // count()+1 entries
+  Array<Index> first, second;
+  Array<std::int32_t> partner_id;   // id of the grain that `second` is or copies
+  Array<std::int32_t> turn;         // at which the partner is seen from `first`
+  Vec3Array history;                // m, tangential displacement (see kernels/README.md for its half-step part)
+  Vec3Array normal;                 // unit vector first -> second at the last force step
+
+  // Written by each force step, row by row; `force` acts on `first`.
+  Vec3Array force;             // N
+  Vec3Array lever_torque;      // N: n x f_t; times the lever arm it is the torque on either grain
+  Array<double> half_overlap;  // m: lever arm = radius - half_overlap
+  Array<double> rolling_cap;   // N m: mu_r |f_n|
+
+  // The rows in which a slot is `second`: incoming[incoming_begin[s] .. incoming_begin[s+1]-1], ascending. A contact
+  // of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again.
+  Array<Index> incoming_begin, incoming;
+
+  Index rows() const { return static_cast<Index>(first.size()); }
+
+  /// Visits what must survive a restart, rows() entries each.
+  template <class Self, class Visit>
+  static void for_each_field(Self& c, Visit&& visit) {
+    visit(FieldInfo{"first", "", "slot of the grain with the smaller id"}, c.first);
+    visit(FieldInfo{"second", "", "slot of the other grain or of its image"}, c.second);
+    visit(FieldInfo{"partner_id", "", "id of the other grain"}, c.partner_id);
+    visit(FieldInfo{"turn", "", "turn at which the other grain is seen"}, c.turn);
+    visit(FieldInfo{"history_x", "m", "tangential displacement"}, c.history.x);
+    visit(FieldInfo{"history_y", "m", "tangential displacement"}, c.history.y);
+    visit(FieldInfo{"history_z", "m", "tangential displacement"}, c.history.z);
+    visit(FieldInfo{"normal_x", "", "unit normal of the last force step"}, c.normal.x);
+    visit(FieldInfo{"normal_y", "", "unit normal of the last force step"}, c.normal.y);
+    visit(FieldInfo{"normal_z", "", "unit normal of the last force step"}, c.normal.z);
+    visit(FieldInfo{"force_x", "N", "force on the grain with the smaller id"}, c.force.x);
+    visit(FieldInfo{"force_y", "N", "force on the grain with the smaller id"}, c.force.y);
+    visit(FieldInfo{"force_z", "N", "force on the grain with the smaller id"}, c.force.z);
+    visit(FieldInfo{"lever_torque_x", "N", "normal x tangential force"}, c.lever_torque.x);
+    visit(FieldInfo{"lever_torque_y", "N", "normal x tangential force"}, c.lever_torque.y);
+    visit(FieldInfo{"lever_torque_z", "N", "normal x tangential force"}, c.lever_torque.z);
+    visit(FieldInfo{"half_overlap", "m", "half of the overlap"}, c.half_overlap);
+    visit(FieldInfo{"rolling_cap", "N m", "torque that rolling friction can resist"}, c.rolling_cap);
+  }
+
+  void resize(Index rows) {
+    for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(rows)); });
+  }
+};
+
+/// Near pairs of grains and wall features (see vessel.hpp). Rows of one grain are consecutive; grains ascend.
+/// Grain grain[g] has the rows begin[g] .. begin[g+1]-1.
+struct WallContactTable {
+  Array<Index> grain, begin;        // `begin` has one entry more than `grain`
+  Array<std::int32_t> feature;      // which segment, edge or plane
+  Array<std::int32_t> touching;     // 1 while in contact
+  Vec3Array history;                // m
+  Vec3Array normal;                 // unit vector grain -> wall
+  Vec3Array force;                  // N, on the grain
+  Vec3Array torque;                 // N m, on the grain
+  Array<double> overlap;            // m
+
+  Index rows() const { return static_cast<Index>(feature.size()); }
+
+  template <class Self, class Visit>
+  static void for_each_field(Self& c, Visit&& visit) {
+    visit(FieldInfo{"feature", "", "wall feature"}, c.feature);
+    visit(FieldInfo{"touching", "", "1 while in contact"}, c.touching);
+    visit(FieldInfo{"history_x", "m", "tangential displacement"}, c.history.x);
+    visit(FieldInfo{"history_y", "m", "tangential displacement"}, c.history.y);
+    visit(FieldInfo{"history_z", "m", "tangential displacement"}, c.history.z);
+    visit(FieldInfo{"normal_x", "", "unit normal of the last force step"}, c.normal.x);
+    visit(FieldInfo{"normal_y", "", "unit normal of the last force step"}, c.normal.y);
+    visit(FieldInfo{"normal_z", "", "unit normal of the last force step"}, c.normal.z);
+    visit(FieldInfo{"force_x", "N", "force on the grain"}, c.force.x);
+    visit(FieldInfo{"force_y", "N", "force on the grain"}, c.force.y);
+    visit(FieldInfo{"force_z", "N", "force on the grain"}, c.force.z);
+    visit(FieldInfo{"torque_x", "N m", "torque on the grain"}, c.torque.x);
+    visit(FieldInfo{"torque_y", "N m", "torque on the grain"}, c.torque.y);
+    visit(FieldInfo{"torque_z", "N m", "torque on the grain"}, c.torque.z);
+    visit(FieldInfo{"overlap", "m", "overlap"}, c.overlap);
+  }
+  void resize(Index rows) {
+    for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(rows)); });
+  }
+};
+
+}  // namespace wedge

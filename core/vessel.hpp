@@ -1,0 +1,75 @@
+// vessel.hpp: the walls as a flat list of features: segments (cylinder, cone, disc, annulus), circular edges, planes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/scene.hpp"
+#include "core/vec3.hpp"
+
+namespace wedge {
+
+/// One piece of wall. In the half plane (u, z), u is the distance r from the axis, or x in a slot.
+struct WallFeature {
+  enum class Kind { segment, edge, plane };
+  Kind kind = Kind::segment;
+  int wall = 0;                       // index of the wall it belongs to
+  Eigen::Vector2d start{0, 0};        // m, segment: first end; edge: the point
+  Eigen::Vector2d direction{1, 0};    // segment: unit vector along it
+  double length = 0;                  // m, segment
+  std::vector<int> neighbours;        // features that meet this one: edges of a segment, segments of an edge
+  Vec3 plane_normal;                  // plane through the axis (or y = const): unit vector into the domain
+  double plane_offset = 0;            // m: plane is dot(x, plane_normal) = plane_offset
+};
+
+/// Where a wall feature is nearest to a point.
+struct WallProximity {
+  double distance = 0;  // m, from the point to the feature
+  Vec3 normal;          // unit vector from the point to the feature
+  bool minimum = false; // the distance has a local minimum there: a touching grain has a contact
+};
+
+/// The walls of a scene with their state: which are present, how far moving ones have travelled.
+class Vessel {
+ public:
+  Vessel() = default;
+  /// Pre: every profile has at least two points, neighbours distinct. Side planes come from scene.domain.
+  explicit Vessel(const Scene& scene);
+
+  int wall_count() const { return static_cast<int>(walls_.size()); }
+  const WallDescription& wall(int w) const { return walls_[static_cast<std::size_t>(w)]; }
+  int wall_index(const std::string& name) const;  // -1: no such wall
+  bool present(int w) const { return walls_[static_cast<std::size_t>(w)].present; }
+  void set_present(int w, bool present) { walls_[static_cast<std::size_t>(w)].present = present; }
+  bool frictionless(int w) const { return w >= frictionless_from_; }
+
+  double travel(int w) const { return travel_[static_cast<std::size_t>(w)]; }  // m upwards since the start
+  void set_travel(int w, double metres) { travel_[static_cast<std::size_t>(w)] = metres; }
+  void advance(double dt);
+  /// Largest |speed| of a wall [m/s].
+  double fastest_wall() const;
+  /// Velocity [m/s] of wall w at point p.
+  Vec3 surface_velocity(int w, Vec3 p) const;
+
+  int feature_count() const { return static_cast<int>(features_.size()); }
+  const WallFeature& feature(int f) const { return features_[static_cast<std::size_t>(f)]; }
+  /// Wall that carries feature f now: for an edge that several walls share, the first that is present.
+  int carrier(int f) const;
+  bool active(int f) const { return carrier(f) >= 0; }
+  WallProximity proximity(int f, Vec3 p) const;
+
+ private:
+  void add_profile(int w);
+  void add_side_planes(const Domain& domain);
+  void join_edges();
+
+  bool slot_ = false;
+  int frictionless_from_ = 0;
+  std::vector<WallDescription> walls_;
+  std::vector<double> travel_;
+  std::vector<WallFeature> features_;
+};
+
+}  // namespace wedge
