@@ -16,6 +16,9 @@
 
 /// Put before an inner loop whose iterations are independent (each writes its own slot).
 #define WEDGE_SIMD _Pragma("omp simd")
+/// The same where the iterations also add to the named local sums (in a fixed order of lanes).
+#define WEDGE_PRAGMA(text) _Pragma(#text)
+#define WEDGE_SIMD_SUM(...) WEDGE_PRAGMA(omp simd reduction(+ : __VA_ARGS__))
 
 namespace wedge {
 
@@ -36,8 +39,8 @@ inline int processor_count() { return 1; }
 /// Calls body(block) for block = 0 .. blocks-1 in parallel. Pre: bodies write disjoint memory and do not throw.
 template <class Body>
 void for_each_block(Index blocks, Body&& body) {
-  if (blocks == 1) {  // not worth waking the threads
-    body(Index{0});
+  if (blocks <= 1) {  // not worth waking the threads
+    if (blocks == 1) body(Index{0});
     return;
   }
 #ifdef _OPENMP

@@ -27,6 +27,7 @@ struct Particles {
   Vec3Array torque;            // N m
   Array<double> rolling_cap;   // N m, sum of mu_r |f_n| over the contacts: what rolling friction can resist
   Vec3Array reference;         // m, position when the neighbour list was made
+  Array<double> list_margin;   // m, how far the grain may go from there before the list is stale
   Array<double> radius;        // m
   Array<double> mass;          // kg
   Array<std::int32_t> material;
@@ -63,6 +64,7 @@ struct Particles {
     visit(FieldInfo{"reference_x", "m", "position when the neighbour list was made"}, p.reference.x);
     visit(FieldInfo{"reference_y", "m", "position when the neighbour list was made"}, p.reference.y);
     visit(FieldInfo{"reference_z", "m", "position when the neighbour list was made"}, p.reference.z);
+    visit(FieldInfo{"list_margin", "m", "way from the reference position after which the list is stale"}, p.list_margin);
     visit(FieldInfo{"radius", "m", "radius"}, p.radius);
     visit(FieldInfo{"mass", "kg", "mass"}, p.mass);
     visit(FieldInfo{"material", "", "index of the material in the scene"}, p.material);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/contact_table.hpp"
 #include "core/image_map.hpp"
@@ -41,6 +42,15 @@ struct EnergyLedger {
   }
 };
 
+/// A grain that left through the outlet.
+struct Departure {
+  double time = 0;  // s, when its centre crossed the outlet height
+  std::int32_t id = 0;
+  std::int32_t layer = 0;
+  Vec3 position, velocity;  // m, m/s, when it was taken out
+  double mass = 0;          // kg
+};
+
 struct State {
   Symmetry symmetry = Symmetry::none();
   Vessel vessel;
@@ -52,11 +62,12 @@ struct State {
 
   double time = 0;             // s
   std::int64_t step = 0;       // steps done
-  double skin = 0;             // m: pairs closer than the sum of radii + skin are in the list
-  double wall_travel = 0;      // m: upper bound of the way of a moving wall since the list was made
+  double wall_margin = 0;      // m: how far a moving wall may go before the neighbour list is stale
+  double wall_travel = 0;      // m: how far the fastest wall has gone since the list was made
   std::int64_t list_builds = 0;  // neighbour lists made so far
   std::int64_t put_in = 0;       // grains put in since the start
   std::int64_t taken_out = 0;    // grains discharged since the start
+  std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
 };
 
 }  // namespace wedge

@@ -1,0 +1,84 @@
+// time_scales.hpp: the times a step must resolve: the Rayleigh time of a sphere, the time two grains touch.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/grain_sizes.hpp"
+#include "core/particles.hpp"
+#include "core/scene.hpp"
+
+namespace wedge {
+
+namespace numbers {
+constexpr double pi = 3.14159265358979323846;
+}
+
+/// Time [s] a Rayleigh wave takes along a sphere: pi R sqrt(rho/G) / (0.1631 nu + 0.8766), G = E/(2(1+nu)).
+/// Li, Xu, Thornton, Powder Technology 160 (2005) 219-228; Thornton, Randall, Micromechanics of Granular
+/// Materials (1988) 133-142.
+inline double rayleigh_time(double radius, const Material& m) {
+  const double shear_modulus = m.young / (2 * (1 + m.poisson));
+  return numbers::pi * radius * std::sqrt(m.density / shear_modulus) / (0.1631 * m.poisson + 0.8766);
+}
+
+/// Smallest Rayleigh time [s] of the grains of a scene; 0 when their sizes are not known.
+inline double rayleigh_time(const Scene& scene) {
+  const double d = smallest_diameter(scene.particles);
+  if (!(d > 0)) return 0;
+  const auto shortest = [&](double diameter, int material) {
+    return rayleigh_time(diameter / 2, scene.materials[static_cast<std::size_t>(material)]);
+  };
+  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains)) {
+    if (const auto* classes = std::get_if<std::vector<SizeClass>>(&fill->sizes)) {
+      double time = std::numeric_limits<double>::infinity();
+      for (const SizeClass& c : *classes) time = std::min(time, shortest(c.diameter, c.material));
+      return time;
+    }
+  }
+  return shortest(d, *grain_materials(scene.particles).begin());
+}
+
+/// Time [s] two equal elastic spheres touch that meet at `speed` [m/s]: 2.9432 a/v, largest approach
+/// a = (15 m* v^2 / (16 E* sqrt(R*)))^(2/5), m*, R*, E* half of mass, radius, E/(1-nu^2). Timoshenko, Goodier,
+/// Theory of Elasticity (1970), section 142.
+inline double collision_time(double radius, const Material& m, double speed) {
+  const double reduced_mass = sphere_mass(radius, m.density) / 2;
+  const double reduced_modulus = m.young / (2 * (1 - m.poisson * m.poisson));
+  const double approach =
+      std::pow(15.0 / 16.0 * reduced_mass * speed * speed / (reduced_modulus * std::sqrt(radius / 2)), 2.0 / 5.0);
+  return 2.9432 * approach / speed;
+}
+
+/// Shortest collision time [s] of two equal grains of a scene that meet at `speed` [m/s]; 0 when sizes are not
+/// known.
+inline double collision_time(const Scene& scene, double speed) {
+  const double d = smallest_diameter(scene.particles);
+  if (!(d > 0)) return 0;
+  double time = std::numeric_limits<double>::infinity();
+  for (int material : grain_materials(scene.particles))
+    time = std::min(time, collision_time(d / 2, scene.materials[static_cast<std::size_t>(material)], speed));
+  return time;
+}
+
+/// Law `linear`: time [s] the two lightest grains touch, pi sqrt(m*/k_n), m* half the mass of one; 0 when not
+/// known.
+inline double linear_contact_time(const Scene& scene) {
+  if (scene.contact.contact_time > 0) return scene.contact.contact_time;
+  const double d = smallest_diameter(scene.particles);
+  if (!(d > 0 && scene.contact.normal_stiffness > 0)) return 0;
+  double mass = std::numeric_limits<double>::infinity();
+  for (int material : grain_materials(scene.particles))
+    mass = std::min(mass, sphere_mass(d / 2, scene.materials[static_cast<std::size_t>(material)].density));
+  return numbers::pi * std::sqrt(mass / 2 / scene.contact.normal_stiffness);
+}
+
+/// Time step [s] of a scene: the one it gives, or, for "auto", 10 % of the smallest Rayleigh time (law `linear`:
+/// 1/50 of the contact time, Luding, European Journal of Environmental and Civil Engineering 12 (2008) 785-826).
+inline double chosen_time_step(const Scene& scene) {
+  if (scene.time_step > 0) return scene.time_step;
+  return scene.contact.law == ContactLaw::linear ? linear_contact_time(scene) / 50 : 0.1 * rayleigh_time(scene);
+}
+
+}  // namespace wedge

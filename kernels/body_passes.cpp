@@ -1,0 +1,42 @@
+// body_passes.cpp: turns the options of a scene into types, for the passes over grains.
+#include "kernels/body_passes.hpp"
+
+#include <variant>
+
+#include "kernels/reduce_forces.hpp"
+
+namespace wedge {
+
+BodyPasses make_body_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
+  std::variant<std::integral_constant<Friction, Friction::none>, std::integral_constant<Friction, Friction::sliding>,
+               std::integral_constant<Friction, Friction::rolling>>
+      level;
+  if (friction == Friction::sliding) level.emplace<1>();
+  if (friction == Friction::rolling) level.emplace<2>();
+  std::variant<std::integral_constant<AxisAction, AxisAction::none>, std::integral_constant<AxisAction, AxisAction::clamp>> action;
+  if (state.symmetry.kind() == Symmetry::Kind::rotation && scene.domain.axis == AxisRule::clamp) action.emplace<1>();
+  std::variant<std::false_type, std::true_type> alike;
+  if (uniform && state.particles.count() > 0) alike.emplace<1>();
+
+  const Vec3 g{scene.domain.gravity.x(), scene.domain.gravity.y(), scene.domain.gravity.z()};
+  BodyPasses passes;
+  std::visit(
+      [&](auto f, auto axis, auto one_kind) {
+        constexpr Friction need = decltype(f)::value;
+        constexpr AxisAction act = decltype(axis)::value;
+        constexpr bool same = decltype(one_kind)::value;
+        const auto bodies = [radius = same ? state.particles.radius[0] : 0.0,
+                             mass = same ? state.particles.mass[0] : 0.0](const State& s) {
+          if constexpr (same) return (void)s, UniformBodies{radius, mass};
+          else return GeneralBodies{s.particles.radius.data(), s.particles.mass.data()};
+        };
+        passes.kick_and_drift = [=](State& s, double dt) { return kick_and_drift<need, act>(bodies(s), s, g, dt); };
+        passes.kick = [=](State& s, double dt) { kick<need, act>(bodies(s), s, g, dt); };
+        passes.reduce_forces = [=](State& s) { reduce_forces<need>(bodies(s), s); };
+        passes.fold_images = [=](State& s) { fold_images<need>(bodies(s), s); };
+      },
+      level, action, alike);
+  return passes;
+}
+
+}  // namespace wedge

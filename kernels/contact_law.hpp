@@ -1,0 +1,63 @@
+// contact_law.hpp: what every contact law takes and gives. A law is a pure function on numbers.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/material.hpp"
+#include "core/scene.hpp"
+#include "core/vec3.hpp"
+
+namespace wedge {
+
+/// One contact as a law sees it. n points from the first body to the second; forces are those on the first.
+struct ContactInput {
+  double overlap;            // m, >= 0
+  double effective_radius;   // m
+  double effective_mass;     // kg
+  double approach_velocity;  // m/s: v_ij . n, positive while the bodies approach
+  Vec3 tangential_velocity;  // m/s: v_ij less its normal part
+  Vec3 displacement;         // m: stored tangential displacement, already moved on to this moment
+};
+
+struct ContactResponse {
+  double normal = 0;          // N: total normal force, positive pushes the bodies apart
+  double elastic_normal = 0;  // N: |f_cn|
+  Vec3 tangential;            // N
+  Vec3 displacement;          // m: what is left of the displacement after sliding
+  Vec3 elastic_tangential;    // N: the part of `tangential` that is not viscous
+  double sliding_loss = 0;    // J lost by sliding in this step
+};
+
+/// The smallest number whose square root and inverse are finite: keeps x / |x| defined at x = 0.
+inline constexpr double tiny = 1e-150;
+
+/// Damping ratio (of critical, at the tangent stiffness) that gives restitution e for a Hertz contact that may
+/// pull at separation: sqrt(5/6) beta, beta = -ln e / sqrt(pi^2 + ln^2 e).
+/// Tsuji, Tanaka, Ishida (1992), Powder Technol. 71, 239, in the closed form of Antypov & Elliott (2011), EPL 94, 50004.
+inline double hertz_damping_ratio(double restitution) {
+  const double l = -std::log(restitution);
+  return std::sqrt(5.0 / 6.0) * l / std::hypot(3.14159265358979323846, l);
+}
+/// The same for a linear spring: beta itself.
+inline double linear_damping_ratio(double restitution) {
+  const double l = -std::log(restitution);
+  return l / std::hypot(3.14159265358979323846, l);
+}
+
+/// 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa].
+inline double effective_young(const Material& a, const Material& b) {
+  return 1 / ((1 - a.poisson * a.poisson) / a.young + (1 - b.poisson * b.poisson) / b.young);
+}
+/// 1/G* = (2-nu1)/G1 + (2-nu2)/G2, G = E / (2 (1 + nu)) [Pa].
+inline double effective_shear(const Material& a, const Material& b) {
+  return 1 / (2 * (2 - a.poisson) * (1 + a.poisson) / a.young + 2 * (2 - b.poisson) * (1 + b.poisson) / b.young);
+}
+
+/// The least total normal force a contact may carry.
+inline double lowest_normal(Tension tension) {
+  return tension == Tension::none ? 0.0 : -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace wedge

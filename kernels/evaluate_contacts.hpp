@@ -1,0 +1,166 @@
+// evaluate_contacts.hpp: the contact pass: every row of the contact table computes its force and writes its own slot.
+#pragma once
+
+#include "core/parallel.hpp"
+#include "core/state.hpp"
+#include "kernels/contact_law.hpp"
+#include "kernels/history.hpp"
+
+namespace wedge {
+
+/// What of the physics a scene needs; chosen once, before the loops. Each includes the ones before it.
+enum class Friction { none, sliding, rolling };
+
+/// Energies lost in one force step [J]; see EnergyLedger.
+struct ContactLosses {
+  double normal_damping = 0, tangential_damping = 0, sliding = 0, tangential_work = 0;
+};
+
+/// All grains alike: one radius, one material. Everything about a pair is a constant of the loop.
+template <class Law>
+struct UniformMix {
+  using Coefficients = typename Law::Coefficients;
+  double radius, mass;
+  Coefficients coefficients;
+
+  struct Pair {
+    double radius_first, radius_second, effective_radius, effective_mass;
+    const Coefficients& coefficients;
+  };
+  Pair pair(Index, Index) const { return {radius, radius, 0.5 * radius, 0.5 * mass, coefficients}; }
+};
+
+/// Any radii and materials: looked up for each pair.
+template <class Law>
+struct GeneralMix {
+  using Coefficients = typename Law::Coefficients;
+  const double* radius;
+  const double* mass;
+  const std::int32_t* material;
+  const Coefficients* table;  // by PairTable slot
+
+  struct Pair {
+    double radius_first, radius_second, effective_radius, effective_mass;
+    Coefficients coefficients;
+  };
+  Pair pair(Index i, Index j) const {
+    const double ri = radius[i], rj = radius[j], mi = mass[i], mj = mass[j];
+    const int a = std::max(material[i], material[j]), b = std::min(material[i], material[j]);
+    return {ri, rj, ri * rj / (ri + rj), mi * mj / (mi + mj), table[a * (a + 1) / 2 + b]};
+  }
+};
+
+/// Bare pointers to what the pass reads and writes, so that the compiler sees plain arrays.
+struct ContactPassArrays {
+  const double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz;
+  const Index *first, *second;
+  double *hx, *hy, *hz, *nx, *ny, *nz;
+  double *fx, *fy, *fz, *qx, *qy, *qz, *half_overlap, *rolling_cap;
+};
+
+inline ContactPassArrays contact_pass_arrays(State& s) {
+  const Particles& p = s.particles;
+  ContactTable& c = s.contacts;
+  return {p.position.x.data(), p.position.y.data(), p.position.z.data(),
+          p.velocity_seen.x.data(), p.velocity_seen.y.data(), p.velocity_seen.z.data(),
+          p.angular_velocity_seen.x.data(), p.angular_velocity_seen.y.data(), p.angular_velocity_seen.z.data(),
+          c.first.data(), c.second.data(),
+          c.history.x.data(), c.history.y.data(), c.history.z.data(),
+          c.normal.x.data(), c.normal.y.data(), c.normal.z.data(),
+          c.force.x.data(), c.force.y.data(), c.force.z.data(),
+          c.lever_torque.x.data(), c.lever_torque.y.data(), c.lever_torque.z.data(),
+          c.half_overlap.data(), c.rolling_cap.data()};
+}
+
+/// One row: geometry, transport of the history, law, forces. Returns the losses of the step.
+/// The displacement grows by the trapezoidal rule: what is stored between steps is delta + (dt/2) v_t, so that the
+/// next half step needs no old velocity (kernels/README.md, "Stored displacement").
+template <class Law, Friction friction, class Mix>
+__attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix, const ContactPassArrays& a, Index k, double dt) {
+  const Index i = a.first[k], j = a.second[k];
+  const auto pair = mix.pair(i, j);
+  const Vec3 d{a.x[j] - a.x[i], a.y[j] - a.y[i], a.z[j] - a.z[i]};
+  const double distance = std::sqrt(dot(d, d));
+  const Vec3 n = (1 / distance) * d;
+  const double gap = distance - (pair.radius_first + pair.radius_second);
+  const bool touching = gap < 0;
+  const double overlap = touching ? -gap : 0.0;
+  Vec3 v{a.vx[i] - a.vx[j], a.vy[i] - a.vy[j], a.vz[i] - a.vz[j]};
+
+  ContactInput in{overlap, pair.effective_radius, pair.effective_mass, 0, {}, {}};
+  if constexpr (friction == Friction::none) {
+    in.approach_velocity = dot(v, n);
+  } else {
+    const Vec3 wi{a.wx[i], a.wy[i], a.wz[i]}, wj{a.wx[j], a.wy[j], a.wz[j]};
+    const double lever_i = pair.radius_first - 0.5 * overlap, lever_j = pair.radius_second - 0.5 * overlap;
+    v += cross(lever_i * wi + lever_j * wj, n);
+    in.approach_velocity = dot(v, n);
+    in.tangential_velocity = v - in.approach_velocity * n;
+    const Vec3 followed = follow_normal({a.hx[k], a.hy[k], a.hz[k]}, {a.nx[k], a.ny[k], a.nz[k]}, n);
+    in.displacement = spin_about_normal(followed, n, 0.25 * dt * dot(wi + wj, n)) + (0.5 * dt) * in.tangential_velocity;
+  }
+
+  const ContactResponse out = Law::respond(pair.coefficients, in);
+  const double on = touching ? 1.0 : 0.0;
+  const Vec3 force = on * (out.tangential - out.normal * n);
+  a.fx[k] = force.x;
+  a.fy[k] = force.y;
+  a.fz[k] = force.z;
+  a.half_overlap[k] = 0.5 * overlap;
+  ContactLosses losses;
+  losses.normal_damping = on * (out.normal - out.elastic_normal) * in.approach_velocity * dt;
+  if constexpr (friction != Friction::none) {
+    const Vec3 q = on * cross(n, out.tangential);
+    a.qx[k] = q.x;
+    a.qy[k] = q.y;
+    a.qz[k] = q.z;
+    const Vec3 stored = on * (out.displacement + (0.5 * dt) * in.tangential_velocity);
+    a.hx[k] = stored.x;
+    a.hy[k] = stored.y;
+    a.hz[k] = stored.z;
+    a.nx[k] = n.x;
+    a.ny[k] = n.y;
+    a.nz[k] = n.z;
+    losses.tangential_work = -on * dt * dot(out.elastic_tangential, in.tangential_velocity);
+    losses.tangential_damping = on * dt * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
+    losses.sliding = on * out.sliding_loss;
+  }
+  if constexpr (friction == Friction::rolling) a.rolling_cap[k] = on * pair.coefficients.rolling * std::fabs(out.normal);
+  return losses;
+}
+
+/// Pre: images are fresh, velocity_seen is predicted to the time of the positions; dt [s] is the time since the last
+/// force step (0: forces at the start, no history grows).
+/// Post: each row's force, lever torque, half overlap, rolling cap, history and normal are those of now.
+template <class Law, Friction friction, bool with_budget, class Mix>
+void evaluate_contacts(const Mix& mix, State& state, double dt) {
+  const ContactPassArrays arrays = contact_pass_arrays(state);
+  const ContactLosses sum = reduce_blocks(
+      state.contacts.rows(), ContactLosses{},
+      [&](Index begin, Index end) {
+        const ContactPassArrays a = arrays;
+        const Mix m = mix;
+        double normal_damping = 0, tangential_damping = 0, sliding = 0, tangential_work = 0;
+        WEDGE_SIMD_SUM(normal_damping, tangential_damping, sliding, tangential_work)
+        for (Index k = begin; k < end; ++k) {
+          const ContactLosses l = evaluate_row<Law, friction>(m, a, k, dt);
+          if constexpr (with_budget) {
+            normal_damping += l.normal_damping;
+            tangential_damping += l.tangential_damping;
+            sliding += l.sliding;
+            tangential_work += l.tangential_work;
+          }
+        }
+        return ContactLosses{normal_damping, tangential_damping, sliding, tangential_work};
+      },
+      [](ContactLosses p, const ContactLosses& q) {
+        return ContactLosses{p.normal_damping + q.normal_damping, p.tangential_damping + q.tangential_damping,
+                             p.sliding + q.sliding, p.tangential_work + q.tangential_work};
+      });
+  state.energy.normal_damping += sum.normal_damping;
+  state.energy.tangential_damping += sum.tangential_damping;
+  state.energy.sliding += sum.sliding;
+  state.energy.tangential_work += sum.tangential_work;
+}
+
+}  // namespace wedge

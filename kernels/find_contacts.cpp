@@ -1,0 +1,231 @@
+// find_contacts.cpp: the half list of near pairs of grains and images, with the histories of the list before.
+#include <numeric>
+#include <sstream>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/require.hpp"
+#include "kernels/neighbours.hpp"
+
+namespace wedge {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+template <class T>
+void resize_with_room(Array<T>& array, Index n) {
+  if (at(n) > array.capacity()) {
+    array.clear();
+    array.reserve(at(n + n / 16 + 64));
+  }
+  array.resize(at(n));
+}
+
+/// What was found for the grains of one block, before rows have their final place.
+struct Found {
+  std::vector<Index> second;
+  std::vector<Index> rows_of_grain;
+  Index deepest_first = -1, deepest_second = -1;  // a pair that overlaps too much
+};
+
+/// The search around one grain.
+class PairSearch {
+ public:
+  PairSearch(const State& state, const NeighbourScratch& scratch)
+      : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()) {}
+
+  void around(Index i, Found& found) const {
+    const CellGrid& g = s_.grid;
+    const Vec3 x = p_.position.get(at(i));
+    const Index column = g.column(x.x), row = g.row(x.y), level = g.level(x.z);
+    const Index column_low = std::max(0, column - 1), column_high = std::min(g.nx() - 1, column + 1);
+    const auto before = found.second.size();
+    for (Index l = std::max(0, level - 1); l <= std::min(g.nz() - 1, level + 1); ++l) {
+      for (Index r = std::max(0, row - 1); r <= std::min(g.ny() - 1, row + 1); ++r) {
+        const Index cell = (l * g.ny() + r) * g.nx();
+        for (Index j = s_.grain_begin[at(cell + column_low)]; j < s_.grain_begin[at(cell + column_high) + 1]; ++j)
+          if (p_.id[at(j)] > p_.id[at(i)]) consider(i, j, j, x, found);
+      }
+    }
+    if (images_.count() > 0) images_around(i, x, column_low, column_high, row, level, found);
+    found.rows_of_grain.push_back(static_cast<Index>(found.second.size() - before));
+  }
+
+ private:
+  void images_around(Index i, Vec3 x, Index column_low, Index column_high, Index row, Index level, Found& found) const {
+    const CellGrid& g = s_.grid;
+    for (Index l = std::max(0, level - 1); l <= std::min(g.nz() - 1, level + 1); ++l) {
+      for (Index r = std::max(0, row - 1); r <= std::min(g.ny() - 1, row + 1); ++r) {
+        const Index cell = (l * g.ny() + r) * g.nx();
+        for (Index q = s_.image_begin[at(cell + column_low)]; q < s_.image_begin[at(cell + column_high) + 1]; ++q) {
+          const Index m = s_.image_order[at(q)];
+          const Index owner = images_.owner[at(m)];
+          // One side computes a seam pair: the grain with the smaller id; a grain meets each of its own copies
+          // k and -k once, at the positive turn.
+          const bool ours = p_.id[at(owner)] > p_.id[at(i)] || (owner == i && images_.turn[at(m)] > 0);
+          if (ours) consider(i, owner, n_ + m, x, found);
+        }
+      }
+    }
+  }
+
+  void consider(Index i, Index owner, Index slot, Vec3 x, Found& found) const {
+    const Vec3 d = p_.position.get(at(slot)) - x;
+    const double radii = p_.radius[at(i)] + p_.radius[at(owner)];
+    const double reach = radii + p_.list_margin[at(i)] + p_.list_margin[at(owner)];
+    const double square = dot(d, d);
+    if (!(square < reach * reach)) return;
+    found.second.push_back(slot);
+    const double limit = radii - overlap_limit * std::min(p_.radius[at(i)], p_.radius[at(owner)]);
+    if (square < limit * limit && found.deepest_first < 0) {
+      found.deepest_first = i;
+      found.deepest_second = slot;
+    }
+  }
+
+  const Particles& p_;
+  const ImageMap& images_;
+  const NeighbourScratch& s_;
+  Index n_;
+};
+
+/// Places images in the cells of the grid: a list of images per cell, in image order.
+void bin_images(const State& state, NeighbourScratch& s) {
+  const Index m = state.images.count(), n = state.particles.count();
+  s.image_begin.assign(at(s.grid.cells()) + 1, 0);
+  if (m == 0) return;
+  s.cell.resize(at(m));
+  for (Index q = 0; q < m; ++q) {
+    s.cell[at(q)] = s.grid.cell(state.particles.position.get(at(n + q)));
+    ++s.image_begin[at(s.cell[at(q)]) + 1];
+  }
+  std::partial_sum(s.image_begin.begin(), s.image_begin.end(), s.image_begin.begin());
+  s.order.assign(s.image_begin.begin(), s.image_begin.end() - 1);
+  s.image_order.resize(at(m));
+  for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
+}
+
+/// Keeps what identifies and remembers the rows of the list before.
+void set_aside(ContactTable& c, NeighbourScratch& s) {
+  s.old_row_begin.swap(c.row_begin);
+  s.old_partner.swap(c.partner_id);
+  s.old_turn.swap(c.turn);
+  std::swap(s.old_history, c.history);
+  std::swap(s.old_normal, c.normal);
+}
+
+void report_overlap(const State& state, Index i, Index slot) {
+  const Particles& p = state.particles;
+  const Index owner = slot < p.count() ? slot : state.images.owner[at(slot - p.count())];
+  const Vec3 x = p.position.get(at(i));
+  std::ostringstream text;
+  text << "grains " << p.id[at(i)] << " and " << p.id[at(owner)] << " at (" << x.x << ", " << x.y << ", " << x.z
+       << ") m overlap by " << (p.radius[at(i)] + p.radius[at(owner)] - norm(p.position.get(at(slot)) - x))
+       << " m in step " << state.step << ": more than " << overlap_limit
+       << " of the smaller radius. Likely cause: grains too soft for their speed, a time step too long, or a start with overlaps.";
+  throw PhysicsError(text.str());
+}
+
+/// Finds the row of the old list that is the same contact, or -1.
+/// `first_wrap` and `partner_wrap` are the turns by which the two grains were turned since.
+Index old_row(const NeighbourScratch& s, const Symmetry& symmetry, Index old_first, std::int32_t partner, int turn_now,
+              int first_wrap, int partner_wrap) {
+  for (Index k = s.old_row_begin[at(old_first)]; k < s.old_row_begin[at(old_first) + 1]; ++k) {
+    if (s.old_partner[at(k)] != partner) continue;
+    if (symmetry.residue(s.old_turn[at(k)] + first_wrap - partner_wrap) == turn_now) return k;
+  }
+  return -1;
+}
+
+/// Fills the rows of grain i; histories of known contacts come along, turned with grain i.
+void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, const Index* seconds, Index count) {
+  const Particles& p = state.particles;
+  ContactTable& c = state.contacts;
+  const Index n = p.count();
+  const bool has_old = !s.old_row_begin.empty();
+  for (Index m = 0; m < count; ++m) {
+    const std::size_t k = at(begin + m);
+    const Index slot = seconds[m];
+    const bool image = slot >= n;
+    const Index owner = image ? state.images.owner[at(slot - n)] : slot;
+    c.first[k] = i;
+    c.second[k] = slot;
+    c.partner_id[k] = p.id[at(owner)];
+    c.turn[k] = image ? state.images.turn[at(slot - n)] : 0;
+    Vec3 history, normal;
+    if (has_old) {
+      const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], c.partner_id[k], c.turn[k], s.wrap[at(i)], s.wrap[at(owner)]);
+      if (old >= 0) {
+        history = state.symmetry.turn_vector(s.old_history.get(at(old)), s.wrap[at(i)]);
+        normal = state.symmetry.turn_vector(s.old_normal.get(at(old)), s.wrap[at(i)]);
+      }
+    }
+    c.history.set(k, history);
+    c.normal.set(k, normal);
+  }
+}
+
+/// Lists for each slot the rows in which it is `second`.
+void index_incoming(State& state) {
+  ContactTable& c = state.contacts;
+  const Index n = state.particles.count();
+  const auto slots = at(n + state.images.count());
+  const int order = state.symmetry.order();
+  const auto own_reaction = [&](Index k) {  // a grain and its own copy half a turn away: the reaction is the action
+    return c.second[at(k)] >= n && 2 * c.turn[at(k)] == order && state.images.owner[at(c.second[at(k)] - n)] == c.first[at(k)];
+  };
+  c.incoming_begin.assign(slots + 1, 0);
+  for (Index k = 0; k < c.rows(); ++k)
+    if (!own_reaction(k)) ++c.incoming_begin[at(c.second[at(k)]) + 1];
+  std::partial_sum(c.incoming_begin.begin(), c.incoming_begin.end(), c.incoming_begin.begin());
+  resize_with_room(c.incoming, c.incoming_begin.back());
+  for (Index k = c.rows() - 1; k >= 0; --k) {  // backwards, filling each list from its end, and end where it begins
+    if (!own_reaction(k)) c.incoming[at(--c.incoming_begin[at(c.second[at(k)]) + 1])] = k;
+  }
+  // Now entry s+1 holds the begin of s: shift by one.
+  for (std::size_t s = 0; s < slots; ++s) c.incoming_begin[s] = c.incoming_begin[s + 1];
+  c.incoming_begin[slots] = static_cast<Index>(c.incoming.size());
+}
+
+}  // namespace
+
+void find_contacts(State& state, NeighbourScratch& scratch) {
+  const Index n = state.particles.count();
+  bin_images(state, scratch);
+  ContactTable& c = state.contacts;
+  set_aside(c, scratch);
+
+  std::vector<Found> found(at(block_count(n)));
+  const PairSearch search(state, scratch);
+  for_each_block(block_count(n), [&](Index b) {
+    Found& f = found[at(b)];
+    f.second.reserve(at(4 * block_size));
+    f.rows_of_grain.reserve(at(block_size));
+    for (Index i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) search.around(i, f);
+  });
+
+  resize_with_room(c.row_begin, n + 1);
+  Index rows = 0;
+  for (Index b = 0; b < block_count(n); ++b) {
+    const Found& f = found[at(b)];
+    if (f.deepest_first >= 0) report_overlap(state, f.deepest_first, f.deepest_second);
+    for (std::size_t g = 0; g < f.rows_of_grain.size(); ++g) {
+      c.row_begin[at(b * block_size) + g] = rows;
+      rows += f.rows_of_grain[g];
+    }
+  }
+  c.row_begin[at(n)] = rows;
+  ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
+  for_each_block(block_count(n), [&](Index b) {
+    const Found& f = found[at(b)];
+    const Index* next = f.second.data();
+    for (std::size_t g = 0; g < f.rows_of_grain.size(); ++g) {
+      const Index i = b * block_size + static_cast<Index>(g);
+      fill_rows(state, scratch, i, c.row_begin[at(i)], next, f.rows_of_grain[g]);
+      next += f.rows_of_grain[g];
+    }
+  });
+  index_incoming(state);
+}
+
+}  // namespace wedge

@@ -1,0 +1,89 @@
+// find_wall_contacts.cpp: which wall features are near which grain, with the histories of the list before.
+#include "core/parallel.hpp"
+#include "kernels/neighbours.hpp"
+
+namespace wedge {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+struct FoundWalls {
+  std::vector<Index> grain, rows_of_grain;
+  std::vector<std::int32_t> feature;
+};
+
+/// Remembers the list before, indexed by the slot each grain had then.
+void set_aside(WallContactTable& c, NeighbourScratch& s, Index old_count) {
+  std::swap(s.old_walls, c);
+  s.old_wall_row.assign(at(old_count), 0);
+  s.old_wall_row_end.assign(at(old_count), 0);
+  for (std::size_t g = 0; g < s.old_walls.grain.size(); ++g) {
+    const std::size_t i = at(s.old_walls.grain[g]);
+    if (i >= at(old_count)) s.old_wall_row.resize(i + 1, 0), s.old_wall_row_end.resize(i + 1, 0);
+    s.old_wall_row[i] = s.old_walls.begin[g];
+    s.old_wall_row_end[i] = s.old_walls.begin[g + 1];
+  }
+}
+
+void carry_history(State& state, const NeighbourScratch& s, Index i, std::size_t row) {
+  WallContactTable& c = state.wall_contacts;
+  const WallContactTable& old = s.old_walls;
+  c.touching[row] = 0;
+  c.history.set(row, {});
+  c.normal.set(row, {});
+  const Index before = s.old_slot[at(i)];
+  if (at(before) >= s.old_wall_row.size()) return;
+  for (Index k = s.old_wall_row[at(before)]; k < s.old_wall_row_end[at(before)]; ++k) {
+    if (old.feature[at(k)] != c.feature[row]) continue;
+    c.touching[row] = old.touching[at(k)];
+    c.history.set(row, state.symmetry.turn_vector(old.history.get(at(k)), s.wrap[at(i)]));
+    c.normal.set(row, state.symmetry.turn_vector(old.normal.get(at(k)), s.wrap[at(i)]));
+  }
+}
+
+}  // namespace
+
+void find_wall_contacts(State& state, NeighbourScratch& scratch) {
+  const Particles& p = state.particles;
+  const Vessel& vessel = state.vessel;
+  const Index n = p.count();
+  std::vector<std::int32_t> active;
+  for (int f = 0; f < vessel.feature_count(); ++f)
+    if (vessel.active(f)) active.push_back(f);
+
+  std::vector<FoundWalls> found(at(block_count(n)));
+  for_each_block(block_count(n), [&](Index b) {
+    FoundWalls& out = found[at(b)];
+    for (Index i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) {
+      const double reach = p.radius[at(i)] + p.list_margin[at(i)] + state.wall_margin;
+      const auto before = out.feature.size();
+      for (const std::int32_t f : active)
+        if (vessel.proximity(f, p.position.get(at(i))).distance < reach) out.feature.push_back(f);
+      if (out.feature.size() == before) continue;
+      out.grain.push_back(i);
+      out.rows_of_grain.push_back(static_cast<Index>(out.feature.size() - before));
+    }
+  });
+
+  WallContactTable& c = state.wall_contacts;
+  set_aside(c, scratch, n);
+  c.grain.clear();
+  c.begin.clear();
+  c.feature.clear();
+  Index rows = 0;
+  for (const FoundWalls& f : found) {
+    for (std::size_t g = 0; g < f.grain.size(); ++g) {
+      c.grain.push_back(f.grain[g]);
+      c.begin.push_back(rows);
+      rows += f.rows_of_grain[g];
+    }
+    c.feature.insert(c.feature.end(), f.feature.begin(), f.feature.end());
+  }
+  c.begin.push_back(rows);
+  c.resize(rows);
+  for_each(static_cast<Index>(c.grain.size()), [&](Index g) {
+    for (Index k = c.begin[at(g)]; k < c.begin[at(g) + 1]; ++k) carry_history(state, scratch, c.grain[at(g)], at(k));
+  });
+}
+
+}  // namespace wedge

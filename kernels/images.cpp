@@ -1,0 +1,90 @@
+// images.cpp: the image pass: which grains have copies across the periodic faces, and moving these along.
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "kernels/neighbours.hpp"
+
+namespace wedge {
+namespace {
+
+/// Turns at which copies of other grains act: every one for exact symmetry, the next ones for the axis rule `clamp`.
+std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
+  if (symmetry.kind() == Symmetry::Kind::translation) return {-1, 1};
+  std::vector<int> turns;
+  for (int k = 1; k < symmetry.order(); ++k) {
+    const int residue = symmetry.residue(k);
+    if (axis == AxisRule::images || residue == 1 || residue == -1) turns.push_back(residue);
+  }
+  std::sort(turns.begin(), turns.end());
+  return turns;
+}
+
+/// Distance from a point of the domain to its nearest periodic face, a lower bound for every copy's distance to the domain.
+double distance_to_face(const Symmetry& symmetry, Vec3 p) {
+  if (symmetry.kind() == Symmetry::Kind::translation) return std::min(p.y, symmetry.width() - p.y);
+  const Vec3 q = symmetry.turn_vector(p, -1);  // the face phi = angle turned onto the x axis
+  const double to_start = p.x > 0 ? std::fabs(p.y) : std::hypot(p.x, p.y);
+  const double to_end = q.x > 0 ? std::fabs(q.y) : std::hypot(q.x, q.y);
+  return std::min(to_start, to_end);
+}
+
+template <class T>
+void resize_with_room(Array<T>& array, std::size_t n) {
+  if (n > array.capacity()) array.reserve(n + n / 16 + 64);
+  array.resize(n);
+}
+
+}  // namespace
+
+void make_images(State& state, AxisRule axis) {
+  ImageMap& images = state.images;
+  images.clear();
+  Particles& p = state.particles;
+  const Index n = p.count();
+  if (state.symmetry.periodic()) {
+    double widest = 0;  // reach of the partner with the widest reach
+    for (Index i = 0; i < n; ++i)
+      widest = std::max(widest, p.radius[static_cast<std::size_t>(i)] + p.list_margin[static_cast<std::size_t>(i)]);
+    const std::vector<int> turns = acting_turns(state.symmetry, axis);
+    for (Index i = 0; i < n; ++i) {
+      const auto s = static_cast<std::size_t>(i);
+      const double reach = widest + p.radius[s] + p.list_margin[s];
+      const Vec3 x = p.position.get(s);
+      if (distance_to_face(state.symmetry, x) > reach) continue;
+      for (const int k : turns) {
+        if (state.symmetry.distance_to_domain(x, k) > reach) continue;
+        images.owner.push_back(i);
+        images.turn.push_back(k);
+      }
+    }
+  }
+  const auto slots = static_cast<std::size_t>(n + images.count());
+  for (Vec3Array* field : {&p.position, &p.velocity_seen, &p.angular_velocity_seen})
+    for (Array<double>* component : {&field->x, &field->y, &field->z}) resize_with_room(*component, slots);
+  resize_with_room(p.radius, slots);
+  resize_with_room(p.mass, slots);
+  resize_with_room(p.material, slots);
+  for (Index m = 0; m < images.count(); ++m) {
+    const auto image = static_cast<std::size_t>(n + m), owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
+    p.radius[image] = p.radius[owner];
+    p.mass[image] = p.mass[owner];
+    p.material[image] = p.material[owner];
+  }
+  refresh_images(state);
+}
+
+void refresh_images(State& state) {
+  Particles& p = state.particles;
+  const ImageMap& images = state.images;
+  const Symmetry& symmetry = state.symmetry;
+  const Index n = p.count();
+  for_each(images.count(), [&](Index m) {
+    const auto image = static_cast<std::size_t>(n + m), owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
+    const int k = images.turn[static_cast<std::size_t>(m)];
+    p.position.set(image, symmetry.turn_point(p.position.get(owner), k));
+    p.velocity_seen.set(image, symmetry.turn_vector(p.velocity_seen.get(owner), k));
+    p.angular_velocity_seen.set(image, symmetry.turn_vector(p.angular_velocity_seen.get(owner), k));
+  });
+}
+
+}  // namespace wedge

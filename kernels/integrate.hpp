@@ -1,0 +1,180 @@
+// integrate.hpp: the half kicks and the drift of the velocity-Verlet step, with the rolling-friction limiter and the
+// axis rule `clamp`.
+#pragma once
+
+#include "core/parallel.hpp"
+#include "core/state.hpp"
+#include "kernels/contact_law.hpp"
+#include "kernels/evaluate_contacts.hpp"
+
+namespace wedge {
+
+/// Does the axis act on the velocities?
+enum class AxisAction { none, clamp };
+
+struct KickLosses {
+  double rolling = 0, axis = 0;  // J
+};
+
+/// A grain closer to the axis than this part of its diameter has no radial direction; the axis rule leaves it alone.
+inline constexpr double axis_resolution = 1e-9;
+
+/// Velocity after a kick of length h [s] by the force f [N] and gravity g [m/s2].
+inline Vec3 kicked(Vec3 v, Vec3 f, Vec3 g, double mass, double h) { return v + h * ((1 / mass) * f + g); }
+
+/// The axis rule `clamp` (Yang et al. 2014, eqs 12-17): a grain whose surface reaches the axis and that moves towards it
+/// loses its radial velocity. `loss` grows by the energy taken [J].
+inline Vec3 clamped_at_axis(Vec3 v, Vec3 position, double radius, double mass, double& loss) {
+  const double r2 = position.x * position.x + position.y * position.y;
+  const double outward = position.x * v.x + position.y * v.y;  // r v_r
+  const double nearest = 2 * radius * axis_resolution;
+  const double take = (r2 < radius * radius && r2 >= nearest * nearest && outward < 0) ? outward / r2 : 0.0;
+  loss += 0.5 * mass * take * outward;
+  return {v.x - take * position.x, v.y - take * position.y, v.z};
+}
+
+/// Angular velocity after a kick of length h by the torque t [N m] while rolling friction resists up to `cap` [N m]:
+/// an exact limiter (PHYSICS: a grain whose spin the cap can stop within the kick stops and stays).
+/// `loss` grows by the rotational energy that rolling friction takes [J].
+inline Vec3 spun(Vec3 w, Vec3 t, double cap, double inertia, double h, double& loss) {
+  const double rate = h / inertia;
+  const Vec3 free = w + rate * t;
+  const double square = dot(free, free);
+  const double left = std::max(0.0, 1 - rate * cap / std::sqrt(square + tiny));
+  loss += 0.5 * inertia * square * (1 - left * left);
+  return left * free;
+}
+inline Vec3 spun_freely(Vec3 w, Vec3 t, double inertia, double h) { return w + (h / inertia) * t; }
+
+/// Radius, mass and inertia of grain i; constants when all grains are alike.
+struct UniformBodies {
+  double radius_, mass_;
+  double radius(Index) const { return radius_; }
+  double mass(Index) const { return mass_; }
+};
+struct GeneralBodies {
+  const double *radius_, *mass_;
+  double radius(Index i) const { return radius_[i]; }
+  double mass(Index i) const { return mass_[i]; }
+};
+
+struct KickArrays {
+  double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz;  // state
+  double *sx, *sy, *sz, *ox, *oy, *oz;              // seen: velocity, angular velocity
+  const double *fx, *fy, *fz, *tx, *ty, *tz, *cap;
+  const double *rx, *ry, *rz, *margin;
+};
+
+inline KickArrays kick_arrays(Particles& p) {
+  return {p.position.x.data(), p.position.y.data(), p.position.z.data(), p.velocity.x.data(), p.velocity.y.data(),
+          p.velocity.z.data(), p.angular_velocity.x.data(), p.angular_velocity.y.data(), p.angular_velocity.z.data(),
+          p.velocity_seen.x.data(), p.velocity_seen.y.data(), p.velocity_seen.z.data(),
+          p.angular_velocity_seen.x.data(), p.angular_velocity_seen.y.data(), p.angular_velocity_seen.z.data(),
+          p.force.x.data(), p.force.y.data(), p.force.z.data(), p.torque.x.data(), p.torque.y.data(), p.torque.z.data(),
+          p.rolling_cap.data(), p.reference.x.data(), p.reference.y.data(), p.reference.z.data(), p.list_margin.data()};
+}
+
+/// The half kick of grain i with the forces in memory; returns the new velocities.
+template <Friction friction, AxisAction axis, class Bodies>
+__attribute__((always_inline)) inline void half_kick(const Bodies& b, const KickArrays& a, Index i, Vec3 g, double h,
+                                                     Vec3& v, Vec3& w, double& rolling, double& axis_loss) {
+  const double mass = b.mass(i), radius = b.radius(i);
+  v = kicked(v, {a.fx[i], a.fy[i], a.fz[i]}, g, mass, h);
+  if constexpr (axis == AxisAction::clamp) v = clamped_at_axis(v, {a.x[i], a.y[i], a.z[i]}, radius, mass, axis_loss);
+  if constexpr (friction == Friction::rolling) {
+    w = spun(w, {a.tx[i], a.ty[i], a.tz[i]}, a.cap[i], sphere_inertia(mass, radius), h, rolling);
+  } else if constexpr (friction == Friction::sliding) {
+    w = spun_freely(w, {a.tx[i], a.ty[i], a.tz[i]}, sphere_inertia(mass, radius), h);
+  }
+}
+
+/// First half of a step: kick by dt/2, drift by dt, predict the velocities that contacts will see at the new time.
+/// Returns whether the neighbour list went stale: a grain left the margin it had when the list was made (or is not a number).
+template <Friction friction, AxisAction axis, class Bodies>
+bool kick_and_drift(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
+  const KickArrays arrays = kick_arrays(state.particles);
+  struct Result {
+    double rolling = 0, at_axis = 0, left = 0;
+  };
+  const Result result = reduce_blocks(
+      state.particles.count(), Result{},
+      [&](Index begin, Index end) {
+        const KickArrays a = arrays;
+        const Bodies b = bodies;
+        const double h = 0.5 * dt;
+        double rolling = 0, axis_loss = 0, left = 0;
+        WEDGE_SIMD_SUM(rolling, axis_loss, left)
+        for (Index i = begin; i < end; ++i) {
+          Vec3 v{a.vx[i], a.vy[i], a.vz[i]}, w{};
+          if constexpr (friction != Friction::none) w = {a.wx[i], a.wy[i], a.wz[i]};
+          double r = 0, s = 0;
+          half_kick<friction, axis>(b, a, i, gravity, h, v, w, r, s);
+          rolling += r;
+          axis_loss += s;
+          a.vx[i] = v.x;
+          a.vy[i] = v.y;
+          a.vz[i] = v.z;
+          a.x[i] += dt * v.x;
+          a.y[i] += dt * v.y;
+          a.z[i] += dt * v.z;
+          if constexpr (friction != Friction::none) {
+            a.wx[i] = w.x;
+            a.wy[i] = w.y;
+            a.wz[i] = w.z;
+          }
+          double unbooked = 0;
+          half_kick<friction, axis>(b, a, i, gravity, h, v, w, unbooked, unbooked);
+          a.sx[i] = v.x;
+          a.sy[i] = v.y;
+          a.sz[i] = v.z;
+          if constexpr (friction != Friction::none) {
+            a.ox[i] = w.x;
+            a.oy[i] = w.y;
+            a.oz[i] = w.z;
+          }
+          const Vec3 way{a.x[i] - a.rx[i], a.y[i] - a.ry[i], a.z[i] - a.rz[i]};
+          left += dot(way, way) <= a.margin[i] * a.margin[i] ? 0.0 : 1.0;
+        }
+        return Result{rolling, axis_loss, left};
+      },
+      [](Result p, const Result& q) { return Result{p.rolling + q.rolling, p.at_axis + q.at_axis, p.left + q.left}; });
+  state.energy.rolling += result.rolling;
+  state.energy.axis += result.at_axis;
+  return result.left > 0;
+}
+
+/// Second half of a step: kick by dt/2 with the new forces.
+template <Friction friction, AxisAction axis, class Bodies>
+void kick(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
+  const KickArrays arrays = kick_arrays(state.particles);
+  const KickLosses losses = reduce_blocks(
+      state.particles.count(), KickLosses{},
+      [&](Index begin, Index end) {
+        const KickArrays a = arrays;
+        const Bodies b = bodies;
+        double rolling = 0, axis_loss = 0;
+        WEDGE_SIMD_SUM(rolling, axis_loss)
+        for (Index i = begin; i < end; ++i) {
+          Vec3 v{a.vx[i], a.vy[i], a.vz[i]}, w{};
+          if constexpr (friction != Friction::none) w = {a.wx[i], a.wy[i], a.wz[i]};
+          double r = 0, s = 0;
+          half_kick<friction, axis>(b, a, i, gravity, 0.5 * dt, v, w, r, s);
+          rolling += r;
+          axis_loss += s;
+          a.vx[i] = v.x;
+          a.vy[i] = v.y;
+          a.vz[i] = v.z;
+          if constexpr (friction != Friction::none) {
+            a.wx[i] = w.x;
+            a.wy[i] = w.y;
+            a.wz[i] = w.z;
+          }
+        }
+        return KickLosses{rolling, axis_loss};
+      },
+      [](KickLosses p, const KickLosses& q) { return KickLosses{p.rolling + q.rolling, p.axis + q.axis}; });
+  state.energy.rolling += losses.rolling;
+  state.energy.axis += losses.axis;
+}
+
+}  // namespace wedge

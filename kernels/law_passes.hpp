@@ -1,0 +1,29 @@
+// law_passes.hpp: the passes that depend on the contact law, with all types chosen: one call each per step.
+#pragma once
+
+#include <functional>
+
+#include "core/scene.hpp"
+#include "core/state.hpp"
+
+namespace wedge {
+
+struct ElasticEnergy {
+  double normal = 0, tangential = 0;  // J
+};
+
+/// What varies from scene to scene; every member is chosen before the first step and calls a loop without options.
+struct LawPasses {
+  std::function<void(State&, double dt)> evaluate_contacts;
+  std::function<void(State&, double dt)> evaluate_walls;
+  /// Elastic energy of all contacts for which `counts(slot of a grain)` holds for either grain; every contact if empty.
+  std::function<ElasticEnergy(const State&, const std::function<bool(Index)>& counts)> elastic_energy;
+};
+
+enum class Friction;
+
+/// Pre: all grains of `state` stay as uniform as they are now: `uniform` says that radius and material are one.
+template <class Law>
+LawPasses make_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform);
+
+}  // namespace wedge

@@ -1,0 +1,102 @@
+// law_passes_impl.hpp: turns the options of a scene into types, for one law. Included once per law.
+#pragma once
+
+#include <variant>
+
+#include "kernels/evaluate_contacts.hpp"
+#include "kernels/evaluate_walls.hpp"
+#include "kernels/law_passes.hpp"
+
+namespace wedge {
+
+template <class Law>
+PairTable<typename Law::Coefficients> prepare_table(const Scene& scene) {
+  const int kinds = static_cast<int>(scene.materials.size());
+  PairTable<typename Law::Coefficients> table(kinds);
+  for (int a = 0; a < kinds; ++a)
+    for (int b = 0; b <= a; ++b)
+      table(a, b) = Law::prepare(scene.materials[static_cast<std::size_t>(a)], scene.materials[static_cast<std::size_t>(b)],
+                                 scene.interactions(a, b), scene.contact);
+  return table;
+}
+
+/// Elastic energy of the contacts in the tables, from overlap and stored displacement.
+/// A contact of a grain with its own copy half a turn away is shared by both, so half of it counts.
+template <class Law>
+ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table, const WallMix<Law>& walls, const State& state,
+                             const std::function<bool(Index)>& counts) {
+  const Particles& p = state.particles;
+  const ContactTable& c = state.contacts;
+  ElasticEnergy sum;
+  for (Index k = 0; k < c.rows(); ++k) {
+    const auto r = static_cast<std::size_t>(k);
+    if (!(c.half_overlap[r] > 0)) continue;
+    const auto i = static_cast<std::size_t>(c.first[r]), j = static_cast<std::size_t>(c.second[r]);
+    const Index n = p.count();
+    const Index owner = c.second[r] < n ? c.second[r] : state.images.owner[j - static_cast<std::size_t>(n)];
+    if (counts && !counts(c.first[r]) && !counts(owner)) continue;
+    const double radius = p.radius[i] * p.radius[j] / (p.radius[i] + p.radius[j]);
+    const double mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
+    const auto& coefficients = table(p.material[i], p.material[j]);
+    const bool shared = owner == c.first[r] && 2 * c.turn[r] == state.symmetry.order();
+    const double part = shared ? 0.5 : 1.0, overlap = 2 * c.half_overlap[r];
+    sum.normal += part * Law::normal_energy(coefficients, radius, mass, overlap);
+    sum.tangential += part * Law::tangential_energy(coefficients, radius, mass, overlap, norm(c.history.get(r)));
+  }
+  const WallContactTable& w = state.wall_contacts;
+  for (std::size_t g = 0; g < w.grain.size(); ++g) {
+    const auto i = static_cast<std::size_t>(w.grain[g]);
+    if (counts && !counts(w.grain[g])) continue;
+    for (auto k = static_cast<std::size_t>(w.begin[g]); k < static_cast<std::size_t>(w.begin[g + 1]); ++k) {
+      if (!w.touching[k]) continue;
+      const int wall = state.vessel.carrier(w.feature[k]);
+      if (wall < 0) continue;
+      const auto coefficients = walls.coefficients(p.material[i], state.vessel, wall);
+      sum.normal += Law::normal_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k]);
+      sum.tangential += Law::tangential_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k], norm(w.history.get(k)));
+    }
+  }
+  return sum;
+}
+
+template <class Law>
+LawPasses make_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
+  const auto table = prepare_table<Law>(scene);
+  const WallMix<Law> walls{table};
+  LawPasses passes;
+  passes.elastic_energy = [table, walls](const State& s, const std::function<bool(Index)>& counts) {
+    return elastic_energy<Law>(table, walls, s, counts);
+  };
+
+  using None = std::integral_constant<Friction, Friction::none>;
+  using Sliding = std::integral_constant<Friction, Friction::sliding>;
+  using Rolling = std::integral_constant<Friction, Friction::rolling>;
+  std::variant<None, Sliding, Rolling> level = None{};
+  if (friction == Friction::sliding) level = Sliding{};
+  if (friction == Friction::rolling) level = Rolling{};
+  std::variant<std::false_type, std::true_type> budget = std::false_type{}, alike = std::false_type{};
+  if (scene.output.energy_budget) budget = std::true_type{};
+  if (uniform && state.particles.count() > 0) alike = std::true_type{};
+
+  std::visit(
+      [&](auto f, auto with_budget, auto one_kind) {
+        constexpr Friction need = decltype(f)::value;
+        constexpr bool books = decltype(with_budget)::value;
+        passes.evaluate_walls = [walls](State& s, double dt) { evaluate_walls<Law, need>(walls, s, dt); };
+        if constexpr (decltype(one_kind)::value) {
+          const int m = state.particles.material[0];
+          const UniformMix<Law> mix{state.particles.radius[0], state.particles.mass[0], table(m, m)};
+          passes.evaluate_contacts = [mix](State& s, double dt) { evaluate_contacts<Law, need, books>(mix, s, dt); };
+        } else {
+          passes.evaluate_contacts = [table](State& s, double dt) {
+            const GeneralMix<Law> mix{s.particles.radius.data(), s.particles.mass.data(), s.particles.material.data(),
+                                      table.entries().data()};
+            evaluate_contacts<Law, need, books>(mix, s, dt);
+          };
+        }
+      },
+      level, budget, alike);
+  return passes;
+}
+
+}  // namespace wedge

@@ -1,0 +1,70 @@
+// mindlin_deresiewicz.hpp: the default law: Hertz, viscous damping, Mindlin-Deresiewicz friction with its stored
+// displacement. Zhou, Xu, Yu, Zulli (2002), Powder Technol. 125, 45; Yang et al. (2014), Ind. Eng. Chem. Res. 53, 8245.
+#pragma once
+
+#include "kernels/contact_law.hpp"
+
+namespace wedge {
+
+struct MindlinDeresiewicz {
+  struct Coefficients {
+    double young;           // E*, Pa
+    double sliding;         // mu_s
+    double rolling;         // mu_r, m
+    double limit;           // dt_max / dn = mu_s E* / (4 G*)
+    double damping_normal;  // c_n
+    double damping_tangential_squared;  // 6 c_t^2 (4/3) E* mu_s dn / dt_max, Pa: what is constant under the root
+    double lowest_normal;   // N
+  };
+
+  static Coefficients prepare(const Material& a, const Material& b, const Interaction& c, const ContactModel& model) {
+    const double young = effective_young(a, b);
+    // dt_max / (mu_s dn); the damping needs mu_s / limit, which is 1 / slope and stays finite without friction
+    const double slope = young / (4 * effective_shear(a, b));
+    const double c_n = c.restitution ? hertz_damping_ratio(*c.restitution) : c.damping_normal;
+    const double c_t = c.restitution ? c_n : c.damping_tangential;
+    return {young,        c.sliding, c.rolling, c.sliding * slope, c_n, 6 * c_t * c_t * (4.0 / 3.0) * young / slope,
+            lowest_normal(model.tension)};
+  }
+
+  static void remove_friction(Coefficients& c) { c.sliding = c.rolling = c.limit = 0; }
+
+  static ContactResponse respond(const Coefficients& c, const ContactInput& in) {
+    ContactResponse out;
+    const double root = std::sqrt(in.effective_radius * in.overlap);
+    out.elastic_normal = (4.0 / 3.0) * c.young * root * in.overlap;
+    const double damping = c.damping_normal * std::sqrt(8 * in.effective_mass * c.young * root);
+    out.normal = std::max(c.lowest_normal, out.elastic_normal + damping * in.approach_velocity);
+
+    const double length_squared = dot(in.displacement, in.displacement);
+    const double inverse_length = 1 / std::sqrt(length_squared + tiny);
+    const double length = length_squared * inverse_length;
+    const double length_max = c.limit * in.overlap;
+    const double left = std::max(0.0, 1 - length / (length_max + tiny));  // 1 - dt/dt_max
+    const double left_root = std::sqrt(left);
+    const double keep = std::min(1.0, length_max * inverse_length);  // cut back to dt_max
+    const double elastic = c.sliding * out.elastic_normal * (1 - left * left_root);
+    const double viscous = c.sliding > 0 ? std::sqrt(c.damping_tangential_squared * in.effective_mass * root * left_root) : 0.0;
+    out.displacement = keep * in.displacement;
+    out.elastic_tangential = (-elastic * inverse_length) * in.displacement;
+    out.tangential = out.elastic_tangential - viscous * in.tangential_velocity;
+    out.sliding_loss = c.sliding * out.elastic_normal * (1 - keep) * length;
+    return out;
+  }
+
+  /// Elastic energy [J] of the normal part at an overlap.
+  static double normal_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/, double overlap) {
+    return (8.0 / 15.0) * c.young * std::sqrt(effective_radius * overlap) * overlap * overlap;
+  }
+  /// Elastic energy [J] of the tangential part at a displacement of length `length`.
+  static double tangential_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/,
+                                  double overlap, double length) {
+    const double limit = c.limit * overlap;
+    const double load = c.sliding * (4.0 / 3.0) * c.young * std::sqrt(effective_radius * overlap) * overlap;
+    const double s = std::min(length, limit);
+    const double left = 1 - s / (limit + tiny);
+    return load * (s - (2.0 / 5.0) * limit * (1 - left * left * std::sqrt(left)));
+  }
+};
+
+}  // namespace wedge

@@ -1,0 +1,63 @@
+// neighbours.hpp: the passes that make the neighbour list anew, in their order. time_step.cpp calls them.
+#pragma once
+
+#include "core/cell_grid.hpp"
+#include "core/scene.hpp"
+#include "core/state.hpp"
+
+namespace wedge {
+
+/// Working memory of the passes, kept between calls so that a step allocates nothing once sizes have settled.
+struct NeighbourScratch {
+  CellGrid grid;
+  Array<std::int32_t> wrap;   // per grain: turns by which the last wrap turned it
+  Array<std::int32_t> leaves; // per grain: 1 when it leaves; empty when none does
+  Array<Index> cell, order;   // per grain: its cell; old slot of each new slot
+  Array<Index> old_slot;      // per grain: where it stood before the last sort
+  Array<Index> grain_begin;   // per cell: first grain (grains are sorted by cell)
+  Array<Index> image_begin, image_order;  // per cell: its images, in image order
+  Array<double> real_buffer;
+  Array<std::int32_t> whole_buffer;
+  // The contacts of the list before, for carrying histories.
+  Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
+  Array<std::int32_t> old_partner, old_turn;
+  Vec3Array old_history, old_normal;
+  WallContactTable old_walls;
+};
+
+/// How far each grain may go before the list is stale, from its speed and from what lists and pairs cost.
+/// Pre: dt > 0 [s]. `smallest` [m] bounds the margins from below. Post: list_margin, wall_margin are set; reference is the position.
+void choose_margins(State& state, double smallest, double dt);
+
+/// Turns grains that left through a face home: position, velocities, forces. Post: scratch.wrap holds their turns.
+void wrap(State& state, NeighbourScratch& scratch);
+
+/// Marks the grains whose centre is below `outlet` [m] and records their departure. Post: scratch.leaves[i] is 1 for them.
+/// Returns how many there are. They are taken out by sort_by_cell.
+Index mark_departures(State& state, NeighbourScratch& scratch, double outlet);
+
+/// Sorts the grains by cell, then id; those marked in scratch.leaves drop out.
+/// Post: grains of a cell are consecutive; scratch.old_slot says whence they came.
+void sort_by_cell(State& state, NeighbourScratch& scratch);
+
+/// Writes the copies of grains near the faces behind the grains. Post: images.owner ascends; radius, mass, material of
+/// the images are set; positions and velocities are refreshed.
+void make_images(State& state, AxisRule axis);
+
+/// Moves images with their owners: x, v and w turned by the image's turn. An index-mapped pass.
+void refresh_images(State& state);
+
+/// Finds all pairs closer than the sum of radii and margins, once each, histories carried over by identity.
+/// Throws PhysicsError when two grains overlap by more than `overlap_limit` of the smaller radius.
+void find_contacts(State& state, NeighbourScratch& scratch);
+
+/// Finds all wall features near each grain, histories carried over.
+void find_wall_contacts(State& state, NeighbourScratch& scratch);
+
+/// Throws PhysicsError when a grain's position or velocity is not a number or it moves too far in a step.
+void check_motion(const State& state, double dt);
+
+inline constexpr double overlap_limit = 0.6;         // of the smaller radius
+inline constexpr double largest_way_per_step = 0.5;  // radii
+
+}  // namespace wedge

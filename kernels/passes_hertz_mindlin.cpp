@@ -1,0 +1,7 @@
+// passes_hertz_mindlin.cpp: the passes compiled for the law HertzMindlin.
+#include "kernels/hertz_mindlin.hpp"
+#include "kernels/law_passes_impl.hpp"
+
+namespace wedge {
+template LawPasses make_law_passes<HertzMindlin>(const Scene&, const State&, Friction, bool);
+}  // namespace wedge

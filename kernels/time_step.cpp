@@ -1,0 +1,167 @@
+// time_step.cpp: the order of the passes.
+#include "kernels/time_step.hpp"
+
+#include <limits>
+
+#include "core/parallel.hpp"
+#include "kernels/evaluate_contacts.hpp"
+#include "kernels/hertz_mindlin.hpp"
+#include "kernels/linear_law.hpp"
+#include "kernels/mindlin_deresiewicz.hpp"
+
+namespace wedge {
+
+extern template LawPasses make_law_passes<MindlinDeresiewicz>(const Scene&, const State&, Friction, bool);
+extern template LawPasses make_law_passes<HertzMindlin>(const Scene&, const State&, Friction, bool);
+extern template LawPasses make_law_passes<LinearLaw>(const Scene&, const State&, Friction, bool);
+
+namespace {
+
+/// The least of friction that the scene's contacts need.
+Friction needed_friction(const Scene& scene) {
+  bool slides = false, rolls = false;
+  for (const Interaction& pair : scene.interactions.entries()) {
+    slides = slides || pair.sliding > 0;
+    rolls = rolls || pair.rolling > 0;
+  }
+  if (rolls && scene.contact.rolling == RollingModel::constant_torque) return Friction::rolling;
+  return slides ? Friction::sliding : Friction::none;
+}
+
+bool all_alike(const Particles& p) {
+  for (std::size_t i = 1; i < static_cast<std::size_t>(p.count()); ++i)
+    if (p.radius[i] != p.radius[0] || p.mass[i] != p.mass[0] || p.material[i] != p.material[0]) return false;
+  return true;
+}
+
+double mean_diameter(const Particles& p) {
+  double sum = 0;
+  for (Index i = 0; i < p.count(); ++i) sum += 2 * p.radius[static_cast<std::size_t>(i)];
+  return p.count() > 0 ? sum / p.count() : 0;
+}
+
+LawPasses law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
+  switch (scene.contact.law) {
+    case ContactLaw::hertz_mindlin: return make_law_passes<HertzMindlin>(scene, state, friction, uniform);
+    case ContactLaw::linear: return make_law_passes<LinearLaw>(scene, state, friction, uniform);
+    case ContactLaw::mindlin_deresiewicz: break;
+  }
+  return make_law_passes<MindlinDeresiewicz>(scene, state, friction, uniform);
+}
+
+constexpr double default_skin = 0.03;  // mean diameters, of a pair at rest (perf/README.md, "Margins")
+
+}  // namespace
+
+TimeStep::TimeStep(const Scene& scene, const State& state) : domain_(scene.domain) {
+  const Friction friction = needed_friction(scene);
+  const bool uniform = all_alike(state.particles);
+  const double skin = scene.run.skin > 0 ? scene.run.skin : default_skin * mean_diameter(state.particles);
+  smallest_margin_ = 0.5 * skin;
+  bodies_ = make_body_passes(scene, state, friction, uniform);
+  law_ = law_passes(scene, state, friction, uniform);
+}
+
+void TimeStep::advance(State& state, double dt) {
+  const bool left = stopwatch_.time("kick and drift", [&] { return bodies_.kick_and_drift(state, dt); });
+  state.vessel.advance(dt);
+  state.wall_travel += state.vessel.fastest_wall() * dt;
+  state.time += dt;
+  ++state.step;
+  if (left || state.wall_travel > state.wall_margin) {
+    stopwatch_.time("neighbour list", [&] { renew_list(state, dt); });
+  } else {
+    stopwatch_.time("refresh images", [&] { refresh_images(state); });
+  }
+  forces(state, dt);
+  stopwatch_.time("kick", [&] { bodies_.kick(state, dt); });
+}
+
+void TimeStep::forces(State& state, double dt) {
+  stopwatch_.time("evaluate contacts", [&] { law_.evaluate_contacts(state, dt); });
+  stopwatch_.time("reduce forces", [&] { bodies_.reduce_forces(state); });
+  stopwatch_.time("fold images", [&] { bodies_.fold_images(state); });
+  stopwatch_.time("evaluate walls", [&] { law_.evaluate_walls(state, dt); });
+}
+
+void TimeStep::renew_list(State& state, double dt) {
+  check_motion(state, dt);
+  if (domain_.outlet_height && mark_departures(state, scratch_, *domain_.outlet_height) > 0) book_departures(state);
+  wrap(state, scratch_);
+  choose_margins(state, smallest_margin_, dt);
+  sort_by_cell(state, scratch_);
+  make_images(state, domain_.axis);
+  find_contacts(state, scratch_);
+  find_wall_contacts(state, scratch_);
+  ++state.list_builds;
+}
+
+void TimeStep::start(State& state, double dt) {
+  Particles& p = state.particles;
+  for (Index i = 0; i < p.count(); ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    p.velocity_seen.set(s, p.velocity.get(s));
+    p.angular_velocity_seen.set(s, p.angular_velocity.get(s));
+  }
+  renew_list(state, dt);
+  forces(state, 0);
+}
+
+void TimeStep::expire_list(State& state) { state.wall_travel = std::numeric_limits<double>::infinity(); }
+
+/// Books the energy that leaving grains take along: their own, and what is stored in contacts with them.
+void TimeStep::book_departures(State& state) {
+  const Particles& p = state.particles;
+  const Vec3 g{domain_.gravity.x(), domain_.gravity.y(), domain_.gravity.z()};
+  for (Index i = 0; i < p.count(); ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    if (!scratch_.leaves[s]) continue;
+    const Vec3 v = p.velocity_seen.get(s), w = p.angular_velocity_seen.get(s);
+    state.energy.carried_out += 0.5 * p.mass[s] * dot(v, v) + 0.5 * sphere_inertia(p.mass[s], p.radius[s]) * dot(w, w) -
+                                p.mass[s] * dot(g, p.position.get(s));
+  }
+  const ElasticEnergy stored = law_.elastic_energy(state, [&](Index i) { return scratch_.leaves[static_cast<std::size_t>(i)] != 0; });
+  state.energy.carried_out += stored.normal + stored.tangential;
+  state.energy.elastic_tangential_removed += stored.tangential;
+}
+
+Energies TimeStep::energies(const State& state) const {
+  const Particles& p = state.particles;
+  const Vec3 g{domain_.gravity.x(), domain_.gravity.y(), domain_.gravity.z()};
+  Energies e = reduce_blocks(
+      p.count(), Energies{},
+      [&](Index begin, Index end) {
+        Energies sum;
+        for (Index i = begin; i < end; ++i) {
+          const auto s = static_cast<std::size_t>(i);
+          const Vec3 v = p.velocity.get(s), w = p.angular_velocity.get(s);
+          sum.kinetic += 0.5 * p.mass[s] * dot(v, v);
+          sum.rotational += 0.5 * sphere_inertia(p.mass[s], p.radius[s]) * dot(w, w);
+          sum.potential -= p.mass[s] * dot(g, p.position.get(s));
+        }
+        return sum;
+      },
+      [](Energies a, const Energies& b) {
+        a.kinetic += b.kinetic;
+        a.rotational += b.rotational;
+        a.potential += b.potential;
+        return a;
+      });
+  const ElasticEnergy stored = law_.elastic_energy(state, {});
+  e.elastic_normal = stored.normal;
+  e.elastic_tangential = stored.tangential;
+  return e;
+}
+
+double TimeStep::history_coupling(const State& state, const Energies& start, const Energies& now) const {
+  const EnergyLedger& l = state.energy;
+  return now.elastic_tangential + l.elastic_tangential_removed - start.elastic_tangential - l.tangential_work + l.sliding;
+}
+
+double TimeStep::residual(const State& state, const Energies& start, const Energies& now) const {
+  const EnergyLedger& l = state.energy;
+  return now.total() - start.total() - l.carried_in + l.carried_out - l.wall_work - history_coupling(state, start, now) +
+         l.normal_damping + l.tangential_damping + l.sliding + l.rolling + l.axis;
+}
+
+}  // namespace wedge

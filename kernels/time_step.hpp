@@ -1,0 +1,52 @@
+// time_step.hpp: one step of the simulation: the one place that knows the order of the passes.
+#pragma once
+
+#include "core/scene.hpp"
+#include "core/state.hpp"
+#include "core/stopwatch.hpp"
+#include "kernels/body_passes.hpp"
+#include "kernels/law_passes.hpp"
+#include "kernels/neighbours.hpp"
+
+namespace wedge {
+
+/// Energies of the moment [J].
+struct Energies {
+  double kinetic = 0, rotational = 0, elastic_normal = 0, elastic_tangential = 0, potential = 0;
+  double total() const { return kinetic + rotational + elastic_normal + elastic_tangential + potential; }
+};
+
+class TimeStep {
+ public:
+  /// Chooses laws and types from the scene and from the grains of `state` (one radius and material, or several).
+  TimeStep(const Scene& scene, const State& state);
+
+  /// Makes the first neighbour list and the forces of the first moment. Throws PhysicsError.
+  void start(State& state, double dt);
+  /// One step of length dt [s]. Throws PhysicsError when the physics breaks down; the state is then that moment's.
+  void advance(State& state, double dt);
+  /// Makes the next step renew the neighbour list: to be called when walls were added or removed.
+  static void expire_list(State& state);
+
+  Energies energies(const State& state) const;
+  /// What the budget of `state.energy` leaves unexplained [J], given the energies at the start; see EnergyLedger.
+  /// `history_coupling` [J] is the change of elastic tangential energy by changing overlap.
+  double history_coupling(const State& state, const Energies& start, const Energies& now) const;
+  double residual(const State& state, const Energies& start, const Energies& now) const;
+
+  Stopwatch& stopwatch() { return stopwatch_; }
+
+ private:
+  void renew_list(State& state, double dt);
+  void forces(State& state, double dt);
+  void book_departures(State& state);
+
+  Domain domain_;
+  double smallest_margin_;  // m
+  BodyPasses bodies_;
+  LawPasses law_;
+  NeighbourScratch scratch_;
+  Stopwatch stopwatch_;
+};
+
+}  // namespace wedge
