@@ -65,6 +65,8 @@ struct State {
   double wall_margin = 0;      // m: how far a moving wall may go before the neighbour list is stale
   double wall_travel = 0;      // m: how far the fastest wall has gone since the list was made
   std::int64_t list_builds = 0;  // neighbour lists made so far
+  double mean_diameter = 0;      // m, of the grains at the start
+  bool alike = false;            // all grains at the start had one radius and one material
   std::int64_t put_in = 0;       // grains put in since the start
   std::int64_t taken_out = 0;    // grains discharged since the start
   std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record

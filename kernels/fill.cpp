@@ -123,6 +123,17 @@ Vec3 draw_place(const Scene& scene, const RandomFill& fill, double radius, Rando
 
 }  // namespace
 
+void describe_grains(State& state) {
+  const Particles& p = state.particles;
+  double sum = 0;
+  state.alike = p.count() > 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i) {
+    sum += 2 * p.radius[i];
+    state.alike = state.alike && p.radius[i] == p.radius[0] && p.material[i] == p.material[0];
+  }
+  state.mean_diameter = p.count() > 0 ? sum / p.count() : 0;
+}
+
 void complete_grains(Particles& p, const std::vector<Material>& materials, double layer_height) {
   for (Vec3Array* field : {&p.force, &p.torque, &p.reference})
     for (Index i = 0; i < p.count(); ++i) field->set(static_cast<std::size_t>(i), {});

@@ -12,6 +12,9 @@ namespace wedge {
 /// `speed`, all forces zero. Throws SceneError when they do not find room.
 void fill_at_random(State& state, const Scene& scene, const RandomFill& fill);
 
+/// Notes in `state` what the grains have in common: mean_diameter and alike. Once, before TimeStep is made.
+void describe_grains(State& state);
+
 /// Sets what follows from radius and material: masses; and zeroes forces and lists. Pre: position, velocity,
 /// angular_velocity, radius, material, id are set.
 void complete_grains(Particles& particles, const std::vector<Material>& materials, double layer_height);

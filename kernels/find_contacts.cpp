@@ -31,8 +31,8 @@ struct Found {
 /// The search around one grain.
 class PairSearch {
  public:
-  PairSearch(const State& state, const NeighbourScratch& scratch)
-      : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()) {}
+  PairSearch(const State& state, const NeighbourScratch& scratch, AxisRule axis)
+      : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()), meets_itself_(axis == AxisRule::images) {}
 
   void around(Index i, Found& found) const {
     const CellGrid& g = s_.grid;
@@ -62,7 +62,7 @@ class PairSearch {
           const Index owner = images_.owner[at(m)];
           // One side computes a seam pair: the grain with the smaller id; a grain meets each of its own copies
           // k and -k once, at the positive turn.
-          const bool ours = p_.id[at(owner)] > p_.id[at(i)] || (owner == i && images_.turn[at(m)] > 0);
+          const bool ours = p_.id[at(owner)] > p_.id[at(i)] || (meets_itself_ && owner == i && images_.turn[at(m)] > 0);
           if (ours) consider(i, owner, n_ + m, x, found);
         }
       }
@@ -87,6 +87,7 @@ class PairSearch {
   const ImageMap& images_;
   const NeighbourScratch& s_;
   Index n_;
+  bool meets_itself_;
 };
 
 /// Places images in the cells of the grid: a list of images per cell, in image order.
@@ -189,14 +190,14 @@ void index_incoming(State& state) {
 
 }  // namespace
 
-void find_contacts(State& state, NeighbourScratch& scratch) {
+void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis) {
   const Index n = state.particles.count();
   bin_images(state, scratch);
   ContactTable& c = state.contacts;
   set_aside(c, scratch);
 
   std::vector<Found> found(at(block_count(n)));
-  const PairSearch search(state, scratch);
+  const PairSearch search(state, scratch, axis);
   for_each_block(block_count(n), [&](Index b) {
     Found& f = found[at(b)];
     f.second.reserve(at(4 * block_size));

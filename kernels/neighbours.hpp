@@ -47,9 +47,10 @@ void make_images(State& state, AxisRule axis);
 /// Moves images with their owners: x, v and w turned by the image's turn. An index-mapped pass.
 void refresh_images(State& state);
 
-/// Finds all pairs closer than the sum of radii and margins, once each, histories carried over by identity.
+/// Finds all pairs closer than the sum of radii and margins, once each, histories carried over by identity. A grain
+/// meets its own copies with axis `images` alone.
 /// Throws PhysicsError when two grains overlap by more than `overlap_limit` of the smaller radius.
-void find_contacts(State& state, NeighbourScratch& scratch);
+void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis);
 
 /// Finds all wall features near each grain, histories carried over.
 void find_wall_contacts(State& state, NeighbourScratch& scratch);

@@ -28,18 +28,6 @@ Friction needed_friction(const Scene& scene) {
   return slides ? Friction::sliding : Friction::none;
 }
 
-bool all_alike(const Particles& p) {
-  for (std::size_t i = 1; i < static_cast<std::size_t>(p.count()); ++i)
-    if (p.radius[i] != p.radius[0] || p.mass[i] != p.mass[0] || p.material[i] != p.material[0]) return false;
-  return true;
-}
-
-double mean_diameter(const Particles& p) {
-  double sum = 0;
-  for (Index i = 0; i < p.count(); ++i) sum += 2 * p.radius[static_cast<std::size_t>(i)];
-  return p.count() > 0 ? sum / p.count() : 0;
-}
-
 LawPasses law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
   switch (scene.contact.law) {
     case ContactLaw::hertz_mindlin: return make_law_passes<HertzMindlin>(scene, state, friction, uniform);
@@ -55,8 +43,8 @@ constexpr double default_skin = 0.03;  // mean diameters, of a pair at rest (per
 
 TimeStep::TimeStep(const Scene& scene, const State& state) : domain_(scene.domain) {
   const Friction friction = needed_friction(scene);
-  const bool uniform = all_alike(state.particles);
-  const double skin = scene.run.skin > 0 ? scene.run.skin : default_skin * mean_diameter(state.particles);
+  const bool uniform = state.alike && state.particles.count() > 0;
+  const double skin = scene.run.skin > 0 ? scene.run.skin : default_skin * state.mean_diameter;
   smallest_margin_ = 0.5 * skin;
   bodies_ = make_body_passes(scene, state, friction, uniform);
   law_ = law_passes(scene, state, friction, uniform);
@@ -91,7 +79,7 @@ void TimeStep::renew_list(State& state, double dt) {
   choose_margins(state, smallest_margin_, dt);
   sort_by_cell(state, scratch_);
   make_images(state, domain_.axis);
-  find_contacts(state, scratch_);
+  find_contacts(state, scratch_, domain_.axis);
   find_wall_contacts(state, scratch_);
   ++state.list_builds;
 }

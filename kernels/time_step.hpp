@@ -18,7 +18,7 @@ struct Energies {
 
 class TimeStep {
  public:
-  /// Chooses laws and types from the scene and from the grains of `state` (one radius and material, or several).
+  /// Chooses laws and types from the scene and from what the grains of `state` have in common. Pre: describe_grains.
   TimeStep(const Scene& scene, const State& state);
 
   /// Makes the first neighbour list and the forces of the first moment. Throws PhysicsError.

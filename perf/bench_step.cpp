@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   if (scene.domain.order > 1) state.symmetry = Symmetry::rotation(scene.domain.order);
   state.vessel = Vessel(scene);
   fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
+  describe_grains(state);
   TimeStep settle(scene, state);
   settle.start(state, dt);
   const auto settle_begin = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "kernels/fill.hpp"
 #include "kernels/time_step.hpp"
 
 namespace wedge::test {
@@ -73,6 +74,7 @@ inline State make_state(const Scene& scene, const std::vector<Grain>& grains) {
     p.mass[i] = sphere_mass(g.radius, scene.materials[static_cast<std::size_t>(g.material)].density);
     p.id[i] = static_cast<std::int32_t>(i);
   }
+  describe_grains(state);
   state.put_in = p.count();
   return state;
 }

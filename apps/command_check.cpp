@@ -1,0 +1,209 @@
+// command_check.cpp: wedge check: what a scene means, and what running it will take.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "apps/commands.hpp"
+#include "apps/progress_line.hpp"
+#include "apps/text_table.hpp"
+#include "apps/threads.hpp"
+#include "core/time_scales.hpp"
+#include "io/scene_diagnostics.hpp"
+#include "io/scene_file.hpp"
+#include "io/scene_names.hpp"
+#include "io/state_csv.hpp"
+
+namespace wedge {
+namespace {
+
+// What the estimates assume; measured on dense beds of equal grains.
+constexpr double bytes_per_grain = 1000;                // memory: grain, near pairs, images, scratch
+constexpr double steps_per_core_second = 6e6;           // grains times steps
+constexpr double frame_numbers = 22, contact_numbers = 28;  // of 4 bytes (8 in double precision), packed
+constexpr double contacts_per_grain = 2.6;              // half of a coordination number of 5.2
+constexpr double checkpoint_bytes = 900;                // per grain
+constexpr double series_row_bytes = 700;                // a row of energies, ledger and walls together
+
+std::string text_of(std::int64_t number) { return std::to_string(number); }
+
+void print_pairs(const Scene& scene) {
+  TextTable table;
+  table.row({"pair", "sliding", "rolling [m]", "damping normal", "tangential", "restitution"});
+  for (int a = 0; a < scene.interactions.kinds(); ++a) {
+    for (int b = a; b < scene.interactions.kinds(); ++b) {
+      const Interaction& pair = scene.interactions(a, b);
+      const std::string name = scene.materials[static_cast<std::size_t>(a)].name + "-" +
+                               scene.materials[static_cast<std::size_t>(b)].name;
+      if (!pair.given) {
+        table.row({name, "not given"});
+      } else {
+        table.row({name, short_number(pair.sliding), short_number(pair.rolling), short_number(pair.damping_normal),
+                   short_number(pair.damping_tangential),
+                   pair.restitution ? short_number(*pair.restitution) : "from damping"});
+      }
+    }
+  }
+  std::cout << "\nPairs of materials\n" << table.text("  ");
+}
+
+/// Speeds [m/s] at which grains may meet: 0.1 m/s, and that of a fall through the fill region.
+std::vector<double> meeting_speeds(const Scene& scene) {
+  std::vector<double> speeds = {0.1};
+  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains)) {
+    const double fall = std::sqrt(2 * scene.domain.gravity.norm() * (fill->z_high - fill->z_low));
+    if (fall > 0) speeds.push_back(fall);
+  }
+  return speeds;
+}
+
+void print_time_step(const Scene& scene, double step, const std::string& name) {
+  std::cout << "  " << name << ": " << short_number(step) << " s";
+  const bool linear = scene.contact.law == ContactLaw::linear;
+  const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
+  if (!(scale > 0)) {
+    std::cout << " (sizes of grains are in their file: not compared)\n";
+    return;
+  }
+  std::cout << " = " << short_number(100 * step / scale) << " % of the " << (linear ? "contact" : "Rayleigh")
+            << " time, " << short_number(scale) << " s\n";
+  if (linear) return;
+  for (const double speed : meeting_speeds(scene)) {
+    const double contact = collision_time(scene, speed);
+    std::cout << "    a collision at " << short_number(std::round(speed * 1000) / 1000) << " m/s lasts "
+              << short_number(contact) << " s = " << short_number(std::round(10 * contact / step) / 10) << " steps\n";
+  }
+}
+
+void print_time_steps(const Scene& scene) {
+  std::cout << "\nTime step\n";
+  print_time_step(scene, chosen_time_step(scene), scene.time_step > 0 ? "of the scene" : "auto");
+  for (const Stage& stage : scene.stages)
+    if (stage.time_step) print_time_step(scene, *stage.time_step, "stage " + stage.name);
+}
+
+/// Grains in this domain; nothing when their file cannot be read or another run has them.
+std::optional<std::int64_t> grains_here(const Scene& scene) {
+  if (!scene.start_from.empty()) return std::nullopt;
+  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains))
+    return std::llround(static_cast<double>(fill->count) / scene.domain.order);
+  const StateFile& file = std::get<StateFile>(scene.particles.grains);
+  if (!std::filesystem::exists(file.path)) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return read_state_csv(file.path, {file.diameter / 2, file.material}, names).count();
+}
+
+void print_domain(const Scene& scene, std::optional<std::int64_t> grains) {
+  const Domain& domain = scene.domain;
+  std::cout << "\nDomain\n  ";
+  if (domain.kind == DomainKind::full) std::cout << "the full vessel";
+  if (domain.kind == DomainKind::slot) std::cout << "a slot, " << short_number(domain.slot_width) << " m wide";
+  if (domain.kind == DomainKind::sector)
+    std::cout << "a sector of " << short_number(360.0 / domain.order) << " degrees, one of " << domain.order;
+  if (domain.kind != DomainKind::full) std::cout << ", sides " << sides_names.of(domain.sides);
+  std::cout << '\n';
+  if (!grains) {
+    std::cout << "  grains: not known before the run starts\n";
+  } else if (domain.kind == DomainKind::sector) {
+    const auto* fill = std::get_if<RandomFill>(&scene.particles.grains);
+    std::cout << "  grains: " << text_of(fill ? fill->count : *grains * domain.order) << " in the full vessel, "
+              << text_of(*grains) << " in this sector\n";
+  } else {
+    std::cout << "  grains: " << text_of(*grains) << '\n';
+  }
+  if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic) {
+    std::cout << "  axis: no rule is needed here\n";
+  } else if (domain.axis == AxisRule::clamp) {
+    std::cout << "  axis: clamp: a grain whose surface reaches the axis loses its velocity towards it, and does not "
+                 "meet its own images\n";
+  } else {
+    std::cout << "  axis: images: a grain near the axis meets its own images, as in a vessel of exact "
+              << domain.order << "-fold symmetry\n";
+  }
+}
+
+/// Simulated time [s] the stages can take; `exact` where a time ends them all, else bounds. Nothing without bound.
+std::optional<double> simulated_time(const Scene& scene, bool& exact) {
+  double total = 0;
+  exact = true;
+  for (const Stage& stage : scene.stages) {
+    if (const auto* until = std::get_if<UntilTime>(&stage.until)) {
+      total += stage.at_most > 0 ? std::min(stage.at_most, until->duration) : until->duration;
+    } else if (stage.at_most > 0) {
+      total += stage.at_most;
+      exact = false;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return total;
+}
+
+/// Time steps the stages can take. Pre: every stage is bounded.
+double steps_of(const Scene& scene) {
+  double steps = 0;
+  for (const Stage& stage : scene.stages) {
+    const auto* until = std::get_if<UntilTime>(&stage.until);
+    double duration = until ? until->duration : stage.at_most;
+    if (until && stage.at_most > 0) duration = std::min(duration, stage.at_most);
+    steps += duration / stage.time_step.value_or(chosen_time_step(scene));
+  }
+  return steps;
+}
+
+void print_disk(const Scene& scene, double grains, double time, const char* at_most) {
+  const Output& output = scene.output;
+  const double number = output.double_precision ? 8 : 4;
+  double frames = 1 + static_cast<double>(scene.stages.size());
+  for (const double t : output.frames_at) frames += t <= time ? 1 : 0;
+  if (output.frames_every > 0) frames += std::floor(time / output.frames_every);
+  const double rows = output.series_every > 0 ? time / output.series_every : 200 * time;
+  const double contacts = output.contacts ? frames * grains * contacts_per_grain * contact_numbers * number : 0;
+  std::cout << "  disk: " << at_most << text_of(std::llround(frames)) << " frames of grains, "
+            << size_text(frames * grains * frame_numbers * number) << "; contacts "
+            << (output.contacts ? size_text(contacts) : "none") << "; series "
+            << size_text(rows * series_row_bytes) << "; two checkpoints "
+            << size_text(2 * grains * checkpoint_bytes) << '\n';
+}
+
+void print_costs(const Scene& scene, double grains, int threads) {
+  const int used = threads > 0 ? threads : scene.run.threads > 0 ? scene.run.threads : usable_threads();
+  std::cout << "\nCost (estimates)\n  memory: " << size_text(grains * bytes_per_grain) << " (assumes "
+            << size_text(bytes_per_grain) << " for a grain with its contacts and images)\n";
+  bool exact = true;
+  const std::optional<double> time = simulated_time(scene, exact);
+  if (!time) {
+    std::cout << "  disk and wall time: not known, a stage has no bound in time (at_most)\n";
+    return;
+  }
+  const char* const at_most = exact ? "" : "at most ";
+  print_disk(scene, grains, *time, at_most);
+  const double step = chosen_time_step(scene);
+  if (!(step > 0)) {
+    std::cout << "  wall time: not known before the sizes of grains are\n";
+    return;
+  }
+  const double steps = steps_of(scene);
+  std::cout << "  wall time: " << at_most << duration_text(steps * grains / (steps_per_core_second * used)) << " on "
+            << used << (used == 1 ? " thread" : " threads") << " (" << short_number(*time) << " s simulated, "
+            << text_of(std::llround(steps)) << " steps; assumes 6e6 grains times steps per second and core)\n";
+}
+
+}  // namespace
+
+int command_check(const std::string& scene_file, const std::vector<std::string>& overrides, int threads) {
+  const Scene scene = read_scene(scene_file, overrides);
+  std::cout << resolved_scene(scene);
+  print_pairs(scene);
+  print_time_steps(scene);
+  const std::optional<std::int64_t> grains = grains_here(scene);
+  print_domain(scene, grains);
+  if (grains) print_costs(scene, static_cast<double>(*grains), threads);
+  const std::vector<std::string> warnings = scene_warnings(scene);
+  std::cout << (warnings.empty() ? "\nNo warnings.\n" : "\nWarnings\n");
+  for (const std::string& warning : warnings) std::cout << "  " << warning << '\n';
+  return exit_code::ok;
+}
+
+}  // namespace wedge

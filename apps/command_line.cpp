@@ -1,0 +1,224 @@
+// command_line.cpp: what the command line may say, with help and examples.
+#include "apps/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <iostream>
+
+#include "apps/commands.hpp"
+#include "io/csv.hpp"
+#include "io/provenance.hpp"
+#include "io/scene_diagnostics.hpp"
+
+namespace wedge {
+namespace {
+
+const char* const examples =
+    "Examples:\n"
+    "  wedge new hopper > hopper.toml\n"
+    "  wedge check hopper.toml --set domain.angle=90\n"
+    "  wedge run hopper.toml -o full -j 8\n"
+    "  wedge run hopper.toml -o sector90 --set domain.angle=90 --set particles.seed=2\n"
+    "  wedge status full\n"
+    "  wedge resume full --wall-time 12:00:00\n"
+    "  wedge compare full --with sector90\n"
+    "  wedge export sector90 --last --to csv --unfold -o state.csv\n"
+    "  wedge export full --frame 3 --to vtp --vessel\n"
+    "Exit codes: 0 ok, 1 internal error, 2 usage, 3 scene, 4 file or disk, 5 physics, 6 outside tolerance,\n"
+    "  75 stopped at the wall-time limit with a checkpoint, 130 interrupted with a checkpoint\n";
+
+double number_of(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (parse_number(text, value) != NumberError::none || !(value >= 0) || value > 1e12)
+    throw CLI::ValidationError(option, "'" + text + "' is no time in seconds");
+  return value;
+}
+
+/// "90", "1.5e3" or "HH:MM:SS" in seconds.
+double wall_time_of(const std::string& text) {
+  if (text.find(':') == std::string::npos) return number_of("--wall-time", text);
+  std::vector<int> parts;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = std::min(text.find(':', begin), text.size());
+    int part = 0;
+    const std::string digits = text.substr(begin, end - begin);
+    const bool plain = !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
+    if (!plain || parse_number(digits, part) != NumberError::none || (!parts.empty() && part > 59)) break;
+    parts.push_back(part);
+    if (end == text.size()) {
+      if (parts.size() != 3) break;
+      return 3600.0 * parts[0] + 60.0 * parts[1] + parts[2];
+    }
+    begin = end + 1;
+  }
+  throw CLI::ValidationError("--wall-time", "'" + text + "' is neither seconds nor HH:MM:SS");
+}
+
+/// The commands with their options; `todo` is what the chosen one does.
+class CommandLine {
+ public:
+  CommandLine(int argc, const char* const* argv) : words_(argv, argv + argc) {
+    app_.set_version_flag("--version", "wedge " + version_text());
+    app_.footer(examples);
+    app_.require_subcommand(0, 1);
+    add_check();
+    add_run();
+    add_resume();
+    add_looking();
+    add_export();
+    add_new();
+    add_not_built();
+  }
+
+  int run() {
+    if (const std::string problem = unknown_command(); !problem.empty()) return usage(problem);
+    try {
+      app_.parse(static_cast<int>(words_.size()), pointers().data());
+    } catch (const CLI::Success& wish) {  // --help, --version
+      return app_.exit(wish, std::cout, std::cerr);
+    } catch (const CLI::ParseError& error) {
+      return usage(error.what());
+    }
+    if (!todo_) return usage("a command is needed");
+    return todo_();
+  }
+
+ private:
+  std::vector<const char*> pointers() const {
+    std::vector<const char*> all;
+    for (const std::string& word : words_) all.push_back(word.c_str());
+    return all;
+  }
+  static int usage(const std::string& problem) {
+    std::cerr << "wedge: " << problem << "\n`wedge --help` lists the commands, `wedge COMMAND --help` their options.\n";
+    return exit_code::usage;
+  }
+  std::string unknown_command() const {
+    if (words_.size() < 2 || words_[1].empty() || words_[1][0] == '-') return "";
+    std::vector<std::string> names;
+    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), words_[1]) != names.end()) return "";
+    return "there is no command '" + words_[1] + "'; " + suggestion(words_[1], names);
+  }
+
+  CLI::App* command(const std::string& name, const std::string& purpose, std::function<int()> todo) {
+    CLI::App* added = app_.add_subcommand(name, purpose);
+    added->callback([this, todo = std::move(todo)] { todo_ = todo; });
+    return added;
+  }
+  void scene_options(CLI::App* command) {
+    command->add_option("SCENE", run_.scene, "scene file (TOML)")->required();
+    command->add_option("--set", run_.overrides, "KEY=VALUE: use this value instead of the scene's; may be repeated")
+        ->allow_extra_args(false)
+        ->expected(1)
+        ->take_all()
+        ->type_name("");
+  }
+  void thread_option(CLI::App* command) {
+    command->add_option("-j,--threads", run_.threads, "number of threads (default: all this process may use)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+  }
+  void limit_options(CLI::App* command) {
+    command->add_flag("--timings", run_.timings, "print the time of each pass at the end");
+    command
+        ->add_option_function<std::string>(
+            "--wall-time", [this](const std::string& text) { run_.wall_time = wall_time_of(text); },
+            "stop with a checkpoint after this time (exit code 75)")
+        ->type_name("SECONDS|HH:MM:SS");
+  }
+  void folder_option(CLI::App* command, std::string& folder) {
+    command->add_option("DIR", folder, "folder of the run")->required();
+  }
+
+  void add_check() {
+    CLI::App* check = command("check", "Validate a scene; say what it means and what it will take",
+                              [this] { return command_check(run_.scene, run_.overrides, run_.threads); });
+    scene_options(check);
+    thread_option(check);
+  }
+  void add_run() {
+    CLI::App* run = command("run", "Run a scene", [this] { return command_run(completed()); });
+    scene_options(run);
+    thread_option(run);
+    run->add_option("-o,--output", run_.folder, "folder to make for the run")->required()->type_name("DIR");
+    limit_options(run);
+  }
+  void add_resume() {
+    CLI::App* resume = command("resume", "Go on from the newest valid checkpoint, as if never stopped",
+                               [this] { return command_resume(completed()); });
+    folder_option(resume, run_.folder);
+    thread_option(resume);
+    limit_options(resume);
+    resume
+        ->add_option_function<std::string>(
+            "--until", [this](const std::string& text) { run_.until = number_of("--until", text); },
+            "stop with a checkpoint at this simulated time")
+        ->type_name("SECONDS");
+  }
+  void add_looking() {
+    folder_option(command("status", "Say in one line how far a run is, also while it runs",
+                          [this] { return command_status(run_.folder); }),
+                  run_.folder);
+    CLI::App* compare = command("compare", "Compare the beds of two sets of runs, stage by stage",
+                                [this] { return command_compare(reference_, with_); });
+    compare->add_option("REF", reference_, "folders of the reference runs")->required()->expected(1, 100000);
+    compare->add_option("--with", with_, "folders of the runs to compare")
+        ->required()
+        ->expected(1, 100000)
+        ->type_name("RUN ...");
+  }
+  void add_export() {
+    CLI::App* out = command("export", "Write a frame as a table (csv) or for a viewer (vtp), or the walls",
+                            [this] { return export_checked(); });
+    folder_option(out, export_.folder);
+    auto* frame = out->add_option("--frame", frame_, "number of the frame")->check(CLI::NonNegativeNumber)->type_name("K");
+    out->add_flag("--last", "the last frame (the default)")->excludes(frame);
+    out->add_option("--to", export_.format, "csv (readable back as a starting state) or vtp")
+        ->check(CLI::IsMember({"csv", "vtp"}))
+        ->type_name("FORMAT");
+    out->add_option("-o,--output", export_.output, "file (default: csv to standard output, vtp beside the frame)")
+        ->type_name("FILE");
+    out->add_flag("--unfold", export_.unfold, "all copies of a sector: the whole vessel");
+    out->add_flag("--vessel", export_.vessel, "the walls, as .vtp");
+  }
+  void add_new() {
+    command("new", "Print a commented scene: hopper or sandpile", [this] { return command_new(name_); })
+        ->add_option("SCENE", name_, "hopper or sandpile")
+        ->required();
+  }
+  void add_not_built() {
+    for (const char* name : {"analyse", "report"})
+      command(name, "(not built yet)", [name] { return usage(std::string(name) + " is not built yet"); })
+          ->allow_extras();
+  }
+
+  int export_checked() {
+    if (export_.format.empty() && !export_.vessel) return usage("export needs --to csv, --to vtp or --vessel");
+    if (frame_ >= 0) export_.frame = frame_;
+    return command_export(export_);
+  }
+  /// The arguments of run and resume with what is not a plain option.
+  RunArguments completed() {
+    run_.command_line = words_;
+    return run_;
+  }
+
+  CLI::App app_{"wedge: discrete-element simulation of grains in cylindrical vessels, whole or by the slice", "wedge"};
+  std::vector<std::string> words_;
+  std::function<int()> todo_;
+  RunArguments run_;
+  ExportArguments export_;
+  std::string name_;
+  std::vector<std::string> reference_, with_;
+  long frame_ = -1;
+};
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) { return CommandLine(argc, argv).run(); }
+
+}  // namespace wedge

@@ -1,0 +1,27 @@
+// command_status.cpp: wedge status: how far a run is, in one line.
+#include <iostream>
+#include <string>
+
+#include "apps/commands.hpp"
+#include "apps/progress_line.hpp"
+#include "apps/run_folder.hpp"
+#include "io/provenance.hpp"
+#include "io/scene_diagnostics.hpp"
+
+namespace wedge {
+
+int command_status(const std::string& folder) {
+  const Progress p = read_progress(RunFolder(folder).progress());
+  std::string line = folder + ": " + p.state;
+  if (p.stage_number > 0)
+    line += ", stage " + std::to_string(p.stage_number) + " of " + std::to_string(p.stage_count) + " (" + p.stage + ")";
+  line += ", " + short_number(p.time) + " s simulated in " + std::to_string(p.step) + " steps of " +
+          short_number(p.time_step) + " s, " + std::to_string(p.grains) + " grains, " +
+          std::to_string(p.discharged) + " discharged, " + duration_text(p.wall_seconds) + " spent";
+  if (p.state == "running" && p.eta_seconds >= 0) line += ", about " + duration_text(p.eta_seconds) + " to go";
+  if (!p.message.empty()) line += ": " + p.message;
+  std::cout << line << '\n';
+  return exit_code::ok;
+}
+
+}  // namespace wedge

@@ -1,0 +1,43 @@
+// commands.hpp: the commands of the program. Each takes what the command line said and returns the exit code.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wedge {
+
+/// Exit codes of the program.
+namespace exit_code {
+inline constexpr int ok = 0, internal = 1, usage = 2, scene = 3, file = 4, physics = 5, tolerance = 6, wall_time = 75,
+                     interrupted = 130;
+}
+
+struct RunArguments {
+  std::string scene, folder;
+  std::vector<std::string> overrides;
+  int threads = 0;            // 0: what the container may use
+  bool timings = false;       // print the time of each pass at the end
+  double wall_time = 0;       // s; 0: no limit
+  std::optional<double> until;  // s, resume only: stop (with a checkpoint) at this simulated time
+  std::vector<std::string> command_line;
+};
+int command_run(const RunArguments&);
+int command_resume(const RunArguments&);  // scene and overrides unused
+
+int command_check(const std::string& scene, const std::vector<std::string>& overrides, int threads);
+int command_status(const std::string& folder);
+
+struct ExportArguments {
+  std::string folder;
+  std::optional<long> frame;  // number; default: the last
+  std::string format;         // csv | vtp
+  std::string output;         // file; empty: standard output for csv, a name beside the frame for vtp
+  bool unfold = false;        // the n rotated copies of a sector
+  bool vessel = false;        // the walls, as .vtp
+};
+int command_export(const ExportArguments&);
+int command_new(const std::string& name);
+int command_compare(const std::vector<std::string>& reference, const std::vector<std::string>& with);
+
+}  // namespace wedge

@@ -1,0 +1,22 @@
+// interrupt.cpp: the signal handler sets a flag and does nothing else.
+#include "apps/interrupt.hpp"
+
+#include <csignal>
+
+namespace wedge {
+namespace {
+volatile std::sig_atomic_t flag = 0;
+
+extern "C" void remember(int signal) {
+  flag = 1;
+  std::signal(signal, SIG_DFL);
+}
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, remember);
+  std::signal(SIGTERM, remember);
+}
+bool interrupted() { return flag != 0; }
+
+}  // namespace wedge

@@ -1,0 +1,52 @@
+// recorder.hpp: what a run leaves on disk while it goes: series, frames, checkpoints.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/run_folder.hpp"
+#include "apps/run_memory.hpp"
+#include "core/scene.hpp"
+#include "core/state.hpp"
+#include "io/series.hpp"
+#include "kernels/time_step.hpp"
+
+namespace wedge {
+
+class Recorder {
+ public:
+  /// Makes the folders and empty series of a new run, or cuts those of an old one back to `resume_time` [s] and to the frames in
+  /// `memory`. Throws FileError.
+  Recorder(const RunFolder& folder, const Scene& scene, const Vessel& vessel, const RunMemory& memory,
+           std::optional<double> resume_time);
+
+  /// Rows and frames that are due at the state's time. Pre: between two steps.
+  void record_due(State& state, const TimeStep& step, RunMemory& memory);
+  /// A row of every series now.
+  void record_series(const State& state, const TimeStep& step, const RunMemory& memory);
+  /// A frame now, whatever the schedule.
+  void record_frame(const State& state, RunMemory& memory);
+  /// Moves the departures of the state to discharge.csv.
+  void record_departures(State& state);
+  /// Writes a checkpoint and keeps the last two. Pre: departures were recorded.
+  void record_checkpoint(const State& state, const RunMemory& memory);
+  /// The grains as they are when the physics broke down: frames/crash_particles.hdf.
+  std::string record_crash(const State& state);
+
+  /// Times [s] at which the grains discharged since `from` [s] crossed the outlet.
+  std::vector<double> crossings_since(double from) const;
+  double series_every() const { return series_every_; }
+
+ private:
+  void open_series(const Vessel& vessel, std::optional<double> resume_time);
+  void forget_later_frames(const RunMemory& memory);
+  void list_frames(const RunMemory& memory) const;
+
+  RunFolder folder_;
+  const Scene& scene_;
+  double series_every_;  // s
+  std::optional<SeriesFile> energies_, ledger_, discharge_, walls_;
+};
+
+}  // namespace wedge

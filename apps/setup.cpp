@@ -1,0 +1,109 @@
+// setup.cpp: fills, reads or takes over the grains a run starts with.
+#include "apps/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "apps/run_folder.hpp"
+#include "core/require.hpp"
+#include "core/time_scales.hpp"
+#include "io/checkpoint.hpp"
+#include "io/state_csv.hpp"
+#include "kernels/fill.hpp"
+#include "kernels/time_step.hpp"
+
+namespace wedge {
+namespace {
+
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(m.name);
+  return names;
+}
+
+/// A state file holds the grains of the whole vessel or of one sector; those outside the domain are an error.
+void read_grains(State& state, const Scene& scene, const StateFile& file) {
+  const StateCsvDefaults defaults{0.5 * file.diameter, file.material};
+  state.particles = read_state_csv(file.path, defaults, material_names(scene));
+  Particles& p = state.particles;
+  for (Index i = 0; i < p.count(); ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    const Vec3 x = p.position.get(s);
+    std::ostringstream text;
+    if (state.symmetry.turns_home(x) != 0) {
+      text << file.path << ": grain " << p.id[s] << " at (" << x.x << ", " << x.y << ", " << x.z
+           << ") m lies outside the sector or slot. Cut the state to the domain, or run the full vessel.";
+      throw SceneError(text.str());
+    }
+    const bool at_axis = std::hypot(x.x, x.y) < 2 * p.radius[s] * axis_resolution;
+    if (at_axis && scene.domain.kind == DomainKind::sector && scene.domain.axis == AxisRule::images) {
+      text << file.path << ": grain " << p.id[s] << " lies on the axis, where axis = \"images\" gives it copies of itself at its own place. Move it, or use axis = \"clamp\".";
+      throw SceneError(text.str());
+    }
+  }
+  complete_grains(p, scene.materials, p.count() > 0 ? 2 * p.radius[0] : 1);
+  state.put_in = p.count();
+}
+
+/// Another run's grains with their contacts; clock, ledgers and walls are this run's own.
+void take_over(State& state, const Scene& scene) {
+  std::string file = scene.start_from;
+  if (std::filesystem::is_directory(file)) {
+    const std::string folder = std::filesystem::is_directory(RunFolder(file).checkpoints()) ? RunFolder(file).checkpoints() : file;
+    const auto newest = newest_valid_checkpoint(folder);
+    if (!newest) throw FileError(folder + ": holds no valid checkpoint to start from");
+    file = *newest;
+  }
+  read_checkpoint(file, state);
+  const State fresh = make_domain(scene);
+  for (int w = 0; w < state.vessel.wall_count(); ++w) {
+    state.vessel.set_present(w, fresh.vessel.present(w));
+    state.vessel.set_travel(w, 0);
+  }
+  state.energy = EnergyLedger{};
+  state.time = 0;
+  state.step = 0;
+  state.list_builds = 0;
+  state.put_in = state.particles.count();
+  state.taken_out = 0;
+  TimeStep::expire_list(state);
+}
+
+}  // namespace
+
+State make_domain(const Scene& scene) {
+  State state;
+  if (scene.domain.sides == Sides::periodic) {
+    if (scene.domain.kind == DomainKind::sector) state.symmetry = Symmetry::rotation(scene.domain.order);
+    if (scene.domain.kind == DomainKind::slot) state.symmetry = Symmetry::translation(scene.domain.slot_width);
+  }
+  state.vessel = Vessel(scene);
+  return state;
+}
+
+State make_start(const Scene& scene) {
+  State state = make_domain(scene);
+  if (!scene.start_from.empty()) {
+    take_over(state, scene);
+  } else if (const auto* file = std::get_if<StateFile>(&scene.particles.grains)) {
+    read_grains(state, scene, *file);
+  } else {
+    fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
+  }
+  describe_grains(state);
+  return state;
+}
+
+double stage_time_step(const Scene& scene, const State& state, const Stage& stage) {
+  if (stage.time_step) return *stage.time_step;
+  if (scene.time_step > 0) return scene.time_step;
+  if (scene.contact.law == ContactLaw::linear) return chosen_time_step(scene);
+  double shortest = std::numeric_limits<double>::infinity();  // the smallest grain really there decides
+  for (std::size_t i = 0; i < static_cast<std::size_t>(state.particles.count()); ++i)
+    shortest = std::min(shortest, rayleigh_time(state.particles.radius[i], scene.materials[static_cast<std::size_t>(state.particles.material[i])]));
+  return std::isfinite(shortest) ? 0.1 * shortest : chosen_time_step(scene);
+}
+
+}  // namespace wedge

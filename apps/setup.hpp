@@ -1,0 +1,21 @@
+// setup.hpp: from a checked scene to the state of the first moment.
+#pragma once
+
+#include <string>
+
+#include "core/scene.hpp"
+#include "core/state.hpp"
+
+namespace wedge {
+
+/// Symmetry and vessel of a scene, no grains.
+State make_domain(const Scene& scene);
+
+/// The whole starting state: random fill, state file, or another run's checkpoint with its contact histories.
+/// Throws SceneError when grains find no room or lie outside the domain, FileError when a file cannot be read.
+State make_start(const Scene& scene);
+
+/// Step length [s] of a stage: its own, the scene's, or, when that is auto, the chosen one.
+double stage_time_step(const Scene& scene, const State& state, const Stage& stage);
+
+}  // namespace wedge

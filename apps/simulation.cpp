@@ -1,0 +1,234 @@
+// simulation.cpp: the stages of a run: begin, step until done, end; and saving whatever happens.
+#include "apps/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "apps/interrupt.hpp"
+#include "apps/rest.hpp"
+#include "apps/setup.hpp"
+#include "core/require.hpp"
+#include "io/checkpoint.hpp"
+#include "io/provenance.hpp"
+#include "kernels/measure.hpp"
+
+namespace wedge {
+namespace {
+
+constexpr std::int64_t look_every = 20;  // steps between looks at the wall clock, at signals and at rest
+constexpr double report_every = 1;       // s of wall time between rewrites of progress.json
+
+double seconds_since(std::chrono::steady_clock::time_point t) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+}
+
+}  // namespace
+
+Simulation Simulation::begin(Scene scene, const RunFolder& folder) {
+  Simulation s(std::move(scene), folder);
+  s.state_ = std::make_unique<State>(make_start(*s.scene_));
+  s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
+  s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
+  s.memory_.begin = s.step_->energies(*s.state_);
+  s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, std::nullopt);
+  return s;
+}
+
+Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
+  const auto newest = newest_valid_checkpoint(folder.checkpoints());
+  if (!newest) throw FileError(folder.checkpoints() + ": no valid checkpoint to resume from");
+  Simulation s(std::move(scene), folder);
+  s.state_ = std::make_unique<State>(make_domain(*s.scene_));
+  const CheckpointExtra extra = read_checkpoint(*newest, *s.state_);
+  s.memory_ = RunMemory::from_text(extra.run_state, *newest);
+  s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
+  s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, s.state_->time);
+  if (s.memory_.stage > 0) s.results_ = read_bed_table(folder.beds());
+  s.results_.resize(std::min(s.results_.size(), static_cast<std::size_t>(s.memory_.stage)));
+  return s;
+}
+
+RunEnd Simulation::run(const RunLimits& limits) {
+  rest_ = rest_criterion(*scene_, state_->mean_diameter);
+  clock_ = std::chrono::steady_clock::now();
+  try {
+    return run_stages(limits);
+  } catch (const PhysicsError& error) {
+    std::string text = error.what();
+    const auto last = newest_valid_checkpoint(folder_.checkpoints());
+    text += "\nThe grains at that moment: " + recorder_->record_crash(*state_) +
+            "\nLast good checkpoint: " + (last ? *last : std::string("none was written yet"));
+    report("failed", text.substr(0, text.find('\n')));
+    log("physics error: " + text);
+    throw PhysicsError(text);
+  }
+}
+
+RunEnd Simulation::run_stages(const RunLimits& limits) {
+  while (memory_.stage < static_cast<std::int64_t>(scene_->stages.size())) {
+    if (const auto stopped = run_stage(limits)) {
+      save(*stopped == RunEnd::interrupted ? "interrupted" : "stopped at a limit");
+      report("stopped");
+      return *stopped;
+    }
+  }
+  save("finished");
+  report("finished");
+  return RunEnd::finished;
+}
+
+/// Runs the present stage to its end, or says why not.
+std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
+  if (!memory_.stage_begun) memory_.time_step = stage_time_step(*scene_, *state_, stage());
+  dt_ = memory_.time_step;
+  stage_session_begin_ = session_seconds_;
+  stage_time_begin_ = state_->time;
+  if (!memory_.stage_begun) begin_stage();
+  recorder_->record_due(*state_, *step_, memory_);
+  while (!stage_is_over()) {
+    step_->advance(*state_, dt_);
+    if (!state_->departures.empty()) recorder_->record_departures(*state_);
+    recorder_->record_due(*state_, *step_, memory_);
+    if (limits.until && state_->time >= *limits.until - 0.5 * dt_) {
+      between_steps();
+      return RunEnd::until;
+    }
+    if (state_->step % look_every != 0) continue;
+    between_steps();
+    if (interrupted()) return RunEnd::interrupted;
+    if (limits.wall_time > 0 && session_seconds_ >= limits.wall_time) return RunEnd::wall_time;
+  }
+  between_steps();
+  end_stage();
+  return std::nullopt;
+}
+
+void Simulation::begin_stage() {
+  Vessel& vessel = state_->vessel;
+  for (const std::string& name : stage().remove) vessel.set_present(vessel.wall_index(name), false);
+  for (const std::string& name : stage().add) vessel.set_present(vessel.wall_index(name), true);
+  if (!stage().remove.empty() || !stage().add.empty()) TimeStep::expire_list(*state_);
+  memory_.stage_begun = true;
+  memory_.stage_start = state_->time;
+  memory_.stage_start_out = state_->taken_out;
+  memory_.quiet_since = -1;
+  memory_.stage_wall_seconds = 0;
+  std::ostringstream text;
+  text << "stage " << stage().name << " begins at " << state_->time << " s with " << state_->particles.count() << " grains, step "
+       << dt_ << " s";
+  log(text.str());
+  line_.note(text.str());
+}
+
+void Simulation::end_stage() {
+  recorder_->record_series(*state_, *step_, memory_);
+  recorder_->record_frame(*state_, memory_);
+  results_.push_back(measure_bed(*state_, *scene_, stage().name, discharge_rate(), memory_.stage_wall_seconds));
+  write_bed_table(folder_.beds(), results_);
+  std::ostringstream text;
+  text << stage().name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds) << " of wall time: "
+       << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
+  write_slice_svg(folder_.slice(stage().name), *state_, *scene_, stage().name);
+  log("stage " + text.str());
+  line_.note("stage " + text.str());
+  ++memory_.stage;
+  memory_.stage_begun = false;
+}
+
+bool Simulation::stage_is_over() {
+  const double in_stage = state_->time - memory_.stage_start;
+  if (stage().at_most > 0 && in_stage >= stage().at_most - 0.5 * dt_) return true;
+  if (const auto* time = std::get_if<UntilTime>(&stage().until)) return in_stage >= time->duration - 0.5 * dt_;
+  if (std::holds_alternative<UntilEmpty>(stage().until)) return state_->particles.count() == 0;
+  if (const auto* out = std::get_if<UntilDischarged>(&stage().until)) return state_->taken_out - memory_.stage_start_out >= out->count;
+  return at_rest();
+}
+
+/// kernels and PHYSICS know no rest: this is the run's own criterion (README, "At rest").
+bool Simulation::at_rest() {
+  if (state_->particles.count() == 0) return true;
+  if (state_->step % look_every != 0) return false;
+  double mass = 0;
+  for (Index i = 0; i < state_->particles.count(); ++i) mass += state_->particles.mass[static_cast<std::size_t>(i)];
+  const double threshold = 0.5 * mass / state_->particles.count() * rest_.speed * rest_.speed;
+  const bool quiet = mean_kinetic_energy(*state_) < threshold;
+  if (!quiet || memory_.quiet_since < 0 || memory_.quiet_out != state_->taken_out) {
+    memory_.quiet_since = quiet ? state_->time : -1;
+    memory_.quiet_out = state_->taken_out;
+    return false;
+  }
+  return state_->time - memory_.quiet_since >= rest_.duration;
+}
+
+/// Grains per second through the outlet [1/s], of this domain: between the moments when 10 % and 90 % of the stage's grains had crossed.
+double Simulation::discharge_rate() const {
+  const std::vector<double> t = recorder_->crossings_since(memory_.stage_start);
+  if (t.size() < 20) return 0;
+  const std::size_t low = t.size() / 10, high = t.size() - 1 - t.size() / 10;
+  return t[high] > t[low] ? static_cast<double>(high - low) / (t[high] - t[low]) : 0;
+}
+
+void Simulation::between_steps() {
+  const double passed = seconds_since(clock_);
+  clock_ = std::chrono::steady_clock::now();
+  session_seconds_ += passed;
+  memory_.wall_seconds += passed;
+  memory_.stage_wall_seconds += passed;
+  if (session_seconds_ - last_checkpoint_ >= scene_->output.checkpoint_every) save("checkpoint");
+  if (session_seconds_ - last_report_ >= report_every) report("running");
+}
+
+void Simulation::save(const char* what) {
+  if (!state_->departures.empty()) recorder_->record_departures(*state_);
+  recorder_->record_checkpoint(*state_, memory_);
+  last_checkpoint_ = session_seconds_;
+  std::ostringstream text;
+  text << what << ": checkpoint at step " << state_->step << ", " << state_->time << " s";
+  log(text.str());
+}
+
+/// Wall time still to go in this stage and, where they are of known length, the next ones [s]; negative: not known.
+double Simulation::eta() const {
+  const double done = state_->time - stage_time_begin_, spent = session_seconds_ - stage_session_begin_;
+  if (done <= 0 || spent < 1) return -1;
+  double left = 0;
+  for (auto n = static_cast<std::size_t>(memory_.stage); n < scene_->stages.size(); ++n) {
+    const auto* time = std::get_if<UntilTime>(&scene_->stages[n].until);
+    if (!time) return -1;
+    left += time->duration - (n == static_cast<std::size_t>(memory_.stage) ? state_->time - memory_.stage_start : 0);
+  }
+  return left * spent / done;
+}
+
+void Simulation::report(const char* run_state, const std::string& message) {
+  last_report_ = session_seconds_;
+  const bool over = memory_.stage >= static_cast<std::int64_t>(scene_->stages.size());
+  Progress p;
+  p.state = run_state;
+  p.stage = over ? scene_->stages.back().name : stage().name;
+  p.stage_count = static_cast<int>(scene_->stages.size());
+  p.stage_number = std::min(static_cast<int>(memory_.stage) + 1, p.stage_count);
+  p.time = state_->time;
+  p.step = state_->step;
+  p.time_step = dt_;
+  p.grains = state_->particles.count();
+  p.discharged = state_->taken_out;
+  p.wall_seconds = memory_.wall_seconds;
+  p.eta_seconds = over ? 0 : eta();
+  p.message = message;
+  write_progress(folder_.progress(), p);
+  const double spent = session_seconds_ - stage_session_begin_;
+  const double steps = dt_ > 0 ? (state_->time - stage_time_begin_) / dt_ : 0;
+  line_.show(p, spent > 0 ? steps * state_->particles.count() / spent : 0, session_seconds_);
+}
+
+void Simulation::log(const std::string& line) {
+  std::ofstream file(folder_.log(), std::ios::app);
+  file << line << '\n';
+  if (!file.flush()) throw FileError(folder_.log() + ": cannot write");
+}
+
+}  // namespace wedge

@@ -1,0 +1,400 @@
+// checkpoint.cpp: the state as datasets, behind a head with the checksum of every byte.
+#include "io/checkpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "io/atomic_file.hpp"
+#include "io/hdf5_file.hpp"
+
+namespace wedge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int format_version = 1;
+constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
+constexpr std::string_view file_prefix = "checkpoint_", file_suffix = ".hdf", part_suffix = ".hdf.part";
+using Head = std::array<char, head_size>;
+
+// ---- the head
+
+/// FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
+constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
+std::uint64_t fnv1a(std::uint64_t hash, const unsigned char* data, std::size_t size) {
+  for (std::size_t k = 0; k < size; ++k) hash = (hash ^ data[k]) * 0x100000001b3u;
+  return hash;
+}
+
+/// Head of a file with `bytes` bytes after the head that have the checksum `hash`.
+Head make_head(std::uint64_t bytes, std::uint64_t hash) {
+  Head head{};
+  std::snprintf(head.data(), head.size(), "wedge checkpoint %d\nbytes %020llu\nfnv1a64 %016llx\n", format_version,
+                static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(hash));
+  return head;
+}
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// Throws FileError unless the file is a checkpoint of this version, whole and unchanged.
+void verify(const std::string& path) {
+  const File file(std::fopen(path.c_str(), "rbe"), &std::fclose);
+  if (!file) throw_file_error(path, "cannot open the checkpoint", errno);
+  Head head{};
+  const std::size_t head_read = std::fread(head.data(), 1, head.size(), file.get());
+  std::uint64_t bytes = 0, hash = fnv_start;
+  std::vector<unsigned char> buffer(std::size_t{1} << 20);
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
+    hash = fnv1a(hash, buffer.data(), got);
+    bytes += got;
+  }
+  if (std::ferror(file.get()) != 0) throw_file_error(path, "cannot read the checkpoint", errno);
+  if (head_read == head.size() && head == make_head(bytes, hash)) return;
+  const Head wanted = make_head(bytes, hash);
+  const auto line_end = static_cast<std::size_t>(std::strchr(wanted.data(), '\n') - wanted.data()) + 1;
+  if (head_read < head.size()) throw_file_error(path, "the checkpoint is cut short: it ends within its head");
+  if (std::memcmp(head.data(), wanted.data(), line_end) != 0) {
+    throw_file_error(path, "is not a wedge checkpoint of version " + std::to_string(format_version));
+  }
+  if (std::memcmp(head.data(), wanted.data(), line_end + std::strlen("bytes ") + 20) != 0) {
+    throw_file_error(path, "the checkpoint is cut short or damaged: it holds " + std::to_string(bytes) +
+                               " bytes, not as many as its head says");
+  }
+  throw_file_error(path, "the checkpoint is damaged: its content does not have the checksum written in its head");
+}
+
+// ---- what is in it
+
+/// Arrays that are stored as they are: visit(name, array). One list for writing and reading.
+template <class Self, class Visit>
+void for_each_array(Self& s, Visit&& visit) {
+  visit("images/owner", s.images.owner);
+  visit("images/turn", s.images.turn);
+  visit("contacts/row_begin", s.contacts.row_begin);
+  visit("contacts/incoming_begin", s.contacts.incoming_begin);
+  visit("contacts/incoming", s.contacts.incoming);
+  ContactTable::for_each_field(
+      s.contacts, [&](const FieldInfo& info, auto& field) { visit(std::string("contacts/") + info.name, field); });
+  visit("wall_contacts/grain", s.wall_contacts.grain);
+  visit("wall_contacts/begin", s.wall_contacts.begin);
+  WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo& info, auto& field) {
+    visit(std::string("wall_contacts/") + info.name, field);
+  });
+}
+
+/// Fields of the grains that have further slots for images: visit(name, array).
+template <class Self, class Visit>
+void for_each_image_field(Self& p, Visit&& visit) {
+  visit("image_slots/x", p.position.x);
+  visit("image_slots/y", p.position.y);
+  visit("image_slots/z", p.position.z);
+  visit("image_slots/radius", p.radius);
+  visit("image_slots/mass", p.mass);
+  visit("image_slots/material", p.material);
+}
+
+/// Single numbers of the state: visit(name, number).
+template <class Self, class Visit>
+void for_each_number(Self& s, Visit&& visit) {
+  visit("time", s.time);
+  visit("step", s.step);
+  visit("wall_margin", s.wall_margin);
+  visit("wall_travel", s.wall_travel);
+  visit("list_builds", s.list_builds);
+  visit("mean_diameter", s.mean_diameter);
+  visit("alike", s.alike);
+  visit("put_in", s.put_in);
+  visit("taken_out", s.taken_out);
+}
+
+/// A departure as numbers; the check below reminds whoever adds a field to it.
+constexpr std::size_t departure_columns = 8;
+static_assert(sizeof(Departure) == (departure_columns + 1) * sizeof(double), "a field of Departure is not saved");
+
+void write_departures(Hdf5Writer& file, const std::vector<Departure>& departures) {
+  std::vector<double> numbers;
+  std::vector<std::int32_t> names;
+  for (const Departure& d : departures) {
+    const Vec3 x = d.position, v = d.velocity;
+    numbers.insert(numbers.end(), {d.time, x.x, x.y, x.z, v.x, v.y, v.z, d.mass});
+    names.insert(names.end(), {d.id, d.layer});
+  }
+  file.group("departures");
+  file.write("departures/time_position_velocity_mass", numbers.data(), Shape{departures.size(), departure_columns});
+  file.write("departures/id_layer", names.data(), Shape{departures.size(), 2});
+}
+
+void read_departures(const Hdf5Reader& file, std::vector<Departure>& departures) {
+  departures.resize(file.shape("departures/id_layer").rows);
+  std::vector<double> numbers(departure_columns * departures.size());
+  std::vector<std::int32_t> names(2 * departures.size());
+  file.read("departures/time_position_velocity_mass", numbers.data(), numbers.size());
+  file.read("departures/id_layer", names.data(), names.size());
+  for (std::size_t k = 0; k < departures.size(); ++k) {
+    const double* n = numbers.data() + departure_columns * k;
+    departures[k] = {n[0], names[2 * k], names[2 * k + 1], {n[1], n[2], n[3]}, {n[4], n[5], n[6]}, n[7]};
+  }
+}
+
+std::string symmetry_text(const Symmetry& symmetry) {
+  switch (symmetry.kind()) {
+    case Symmetry::Kind::none:
+      return "none";
+    case Symmetry::Kind::rotation:
+      return "rotation, order " + std::to_string(symmetry.order());
+    case Symmetry::Kind::translation:
+      break;
+  }
+  char width[64];
+  std::snprintf(width, sizeof width, "translation, width %a m", symmetry.width());
+  return width;
+}
+
+std::string wall_names(const Vessel& vessel) {
+  std::string names;
+  for (int w = 0; w < vessel.wall_count(); ++w) names += vessel.wall(w).name + '\n';
+  return names;
+}
+
+void write_vessel(Hdf5Writer& file, const Vessel& vessel) {
+  std::vector<std::int32_t> present;
+  std::vector<double> travel;
+  for (int w = 0; w < vessel.wall_count(); ++w) {
+    present.push_back(vessel.present(w) ? 1 : 0);
+    travel.push_back(vessel.travel(w));
+  }
+  file.group("vessel");
+  file.text("vessel/names", wall_names(vessel));
+  file.write("vessel/present", present.data(), Shape{present.size()});
+  file.write("vessel/travel", travel.data(), Shape{travel.size()});
+}
+
+void read_vessel(const Hdf5Reader& file, Vessel& vessel) {
+  Array<std::int32_t> present;
+  Array<double> travel;
+  file.read("vessel/present", present);
+  file.read("vessel/travel", travel);
+  if (present.size() != static_cast<std::size_t>(vessel.wall_count()) || travel.size() != present.size()) {
+    throw_file_error(file.path(), "the checkpoint has " + std::to_string(present.size()) + " walls, the scene " +
+                                      std::to_string(vessel.wall_count()));
+  }
+  if (file.text("vessel/names") != wall_names(vessel)) {
+    throw_file_error(file.path(), "the checkpoint and the scene name their walls differently");
+  }
+  for (int w = 0; w < vessel.wall_count(); ++w) {
+    vessel.set_present(w, present[static_cast<std::size_t>(w)] != 0);
+    vessel.set_travel(w, travel[static_cast<std::size_t>(w)]);
+  }
+}
+
+void write_extra(Hdf5Writer& file, const CheckpointExtra& extra) {
+  file.group("extra");
+  file.text("extra/scene", extra.scene_text);
+  file.text("extra/resolved_scene", extra.resolved_scene);
+  std::string pairs;  // key, '\0', value, '\0', ...
+  for (const auto& [key, value] : extra.run_state) (pairs += key + '\0') += value + '\0';
+  file.write("extra/run_state", reinterpret_cast<const std::uint8_t*>(pairs.data()), Shape{pairs.size()});
+}
+
+CheckpointExtra read_extra(const Hdf5Reader& file) {
+  CheckpointExtra extra;
+  extra.scene_text = file.text("extra/scene");
+  extra.resolved_scene = file.text("extra/resolved_scene");
+  Array<std::uint8_t> pairs;
+  file.read("extra/run_state", pairs);
+  std::vector<std::string> texts(1);
+  for (const std::uint8_t byte : pairs) {
+    if (byte == 0) {
+      texts.emplace_back();
+    } else {
+      texts.back() += static_cast<char>(byte);
+    }
+  }
+  for (std::size_t k = 0; k + 2 < texts.size(); k += 2) extra.run_state.emplace_back(texts[k], texts[k + 1]);
+  return extra;
+}
+
+void write_particles(Hdf5Writer& file, const Particles& p, std::size_t images) {
+  const auto n = static_cast<std::size_t>(p.count());
+  file.group("particles");
+  Particles::for_each_field(p, [&](const FieldInfo& info, const auto& field) {
+    require(field.size() >= n, "a particle field is shorter than the list of particles");
+    file.write(std::string("particles/") + info.name, field.data(), Shape{n});
+  });
+  file.group("image_slots");
+  for_each_image_field(p, [&](const std::string& name, const auto& field) {
+    require(field.size() >= n + images, "a particle field has no room for the images");
+    file.write(name, field.data() + n, Shape{images});
+  });
+}
+
+void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
+  const std::size_t n = file.shape("particles/id").size();
+  p.resize(static_cast<Index>(n));
+  Particles::for_each_field(p, [&](const FieldInfo& info, auto& field) {
+    file.read(std::string("particles/") + info.name, field.data(), n);
+  });
+  for_each_image_field(p, [&](const std::string& name, auto& field) {
+    field.resize(n + images);
+    file.read(name, field.data() + n, images);
+  });
+  for (Vec3Array* seen : {&p.velocity_seen, &p.angular_velocity_seen}) {
+    for (Array<double>* component : {&seen->x, &seen->y, &seen->z}) component->assign(n + images, 0.0);
+  }
+}
+
+/// Throws FileError unless the arrays that belong together have lengths that do.
+void check_lengths(const State& s, const std::string& path) {
+  const auto n = static_cast<std::size_t>(s.particles.count());
+  bool fit = s.images.turn.size() == s.images.owner.size();
+  ContactTable::for_each_field(s.contacts, [&](const FieldInfo&, const auto& field) {
+    fit = fit && field.size() == static_cast<std::size_t>(s.contacts.rows());
+  });
+  fit = fit && (s.contacts.row_begin.empty() || s.contacts.row_begin.size() == n + 1);
+  WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo&, const auto& field) {
+    fit = fit && field.size() == static_cast<std::size_t>(s.wall_contacts.rows());
+  });
+  if (!fit) throw_file_error(path, "the checkpoint is damaged: lengths of its arrays do not fit together");
+}
+
+/// Step in the name of a checkpoint file; nothing for other names.
+std::optional<std::int64_t> step_in_name(const std::string& name) {
+  if (name.size() <= file_prefix.size() + file_suffix.size() ||
+      name.compare(0, file_prefix.size(), file_prefix) != 0 ||
+      name.compare(name.size() - file_suffix.size(), file_suffix.size(), file_suffix) != 0) {
+    return std::nullopt;
+  }
+  std::int64_t step = 0;
+  const char* first = name.data() + file_prefix.size();
+  const char* last = name.data() + name.size() - file_suffix.size();
+  const auto [end, error] = std::from_chars(first, last, step);
+  if (error != std::errc{} || end != last || *first == '-') return std::nullopt;
+  return step;
+}
+
+/// Names in a folder. Throws FileError.
+std::vector<std::string> names_in(const std::string& folder) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    names.push_back(at->path().filename().string());
+  }
+  if (error) throw FileError(folder + ": cannot read the folder: " + error.message());
+  return names;
+}
+
+/// Names of the checkpoints in a folder, most steps first.
+std::vector<std::string> checkpoints_in(const std::string& folder) {
+  std::vector<std::pair<std::int64_t, std::string>> found;
+  for (const std::string& name : names_in(folder)) {
+    if (const auto step = step_in_name(name)) found.emplace_back(*step, name);
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::string> names;
+  for (auto& entry : found) names.push_back(std::move(entry.second));
+  return names;
+}
+
+}  // namespace
+
+std::string checkpoint_path(const std::string& folder, std::int64_t step) {
+  char name[64];
+  std::snprintf(name, sizeof name, "checkpoint_%012lld.hdf", static_cast<long long>(step));
+  return folder + "/" + name;
+}
+
+void write_checkpoint(const std::string& path, const State& state, const CheckpointExtra& extra) {
+  Hdf5Writer file(path, head_size);
+  file.attribute("/", "format", "wedge checkpoint");
+  file.attribute("/", "format_version", format_version);
+  file.attribute("/", "symmetry", symmetry_text(state.symmetry));
+  for_each_number(state, [&](const char* name, auto number) { file.attribute("/", name, number); });
+  file.group("energy");
+  EnergyLedger::for_each_field(state.energy,
+                               [&](const char* name, double value) { file.attribute("energy", name, value); });
+  write_extra(file, extra);
+  write_vessel(file, state.vessel);
+  write_departures(file, state.departures);
+  write_particles(file, state.particles, static_cast<std::size_t>(state.images.count()));
+  for (const char* group : {"images", "contacts", "wall_contacts"}) file.group(group);
+  for_each_array(state, [&](const std::string& name, const auto& array) {
+    file.write(name, array.data(), Shape{array.size()});
+  });
+  const Hdf5Writer::Image image = file.image();
+  const unsigned char* content = image.data + head_size;
+  const std::size_t size = image.size - head_size;
+  const Head head = make_head(size, fnv1a(fnv_start, content, size));
+  replace_file(path, {{head.data(), head.size()}, {content, size}});
+}
+
+CheckpointExtra read_checkpoint(const std::string& path, State& state) {
+  verify(path);
+  const Hdf5Reader file(path);
+  const std::string symmetry = file.text_attribute("/", "symmetry");
+  if (symmetry != symmetry_text(state.symmetry)) {
+    throw_file_error(path, "the checkpoint has the symmetry '" + symmetry + "', the scene '" +
+                               symmetry_text(state.symmetry) + "'");
+  }
+  read_vessel(file, state.vessel);
+  for_each_number(state, [&](const char* name, auto& number) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(number)>, double>) {
+      number = file.number_attribute("/", name);
+    } else {
+      number = file.integer_attribute("/", name);
+    }
+  });
+  EnergyLedger::for_each_field(
+      state.energy, [&](const char* name, double& value) { value = file.number_attribute("energy", name); });
+  read_departures(file, state.departures);
+  for_each_array(state, [&](const std::string& name, auto& array) { file.read(name, array); });
+  read_particles(file, state.particles, static_cast<std::size_t>(state.images.count()));
+  check_lengths(state, path);
+  return read_extra(file);
+}
+
+CheckpointExtra read_checkpoint_extra(const std::string& path) {
+  verify(path);
+  return read_extra(Hdf5Reader(path));
+}
+
+bool checkpoint_is_valid(const std::string& path) {
+  try {
+    verify(path);
+    return true;
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+std::optional<std::string> newest_valid_checkpoint(const std::string& folder) {
+  for (const std::string& name : checkpoints_in(folder)) {
+    const std::string path = folder + "/" + name;
+    if (checkpoint_is_valid(path)) return path;
+  }
+  return std::nullopt;
+}
+
+void keep_last(const std::string& folder, std::size_t count) {
+  std::vector<std::string> names = checkpoints_in(folder);
+  names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(count, names.size())));
+  for (const std::string& name : names_in(folder)) {
+    if (name.compare(0, file_prefix.size(), file_prefix) == 0 && name.size() > part_suffix.size() &&
+        name.compare(name.size() - part_suffix.size(), part_suffix.size(), part_suffix) == 0) {
+      names.push_back(name);
+    }
+  }
+  for (const std::string& name : names) {
+    std::error_code error;
+    fs::remove(folder + "/" + name, error);
+    if (error) throw FileError(folder + "/" + name + ": cannot remove: " + error.message());
+  }
+}
+
+}  // namespace wedge

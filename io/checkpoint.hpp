@@ -1,0 +1,54 @@
+// checkpoint.hpp: everything a run needs to go on bit for bit, in one file that knows whether it is intact.
+//
+// A checkpoint is an HDF5 file behind a head of 512 bytes (the user block, which HDF5 tools skip). The head says in
+// one line of text how long the file is and the FNV-1a checksum (64 bits) of every byte after the head: a file that
+// was cut short or changed anywhere is refused before HDF5 looks at it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/state.hpp"
+
+namespace wedge {
+
+/// What the driver of a run keeps with the state.
+struct CheckpointExtra {
+  std::string scene_text;
+  std::string resolved_scene;
+  std::vector<std::pair<std::string, std::string>> run_state;  // in order; no '\0' in keys and values
+};
+
+/// "FOLDER/checkpoint_000000001234.hdf" for step 1234.
+std::string checkpoint_path(const std::string& folder, std::int64_t step);
+
+/// Writes the state in doubles. The velocities that contacts see (velocity_seen, angular_velocity_seen) are not
+/// state and are left out. Throws FileError. Pre: every field has count() entries, those of images have count() +
+/// images; between two steps.
+void write_checkpoint(const std::string& path, const State& state, const CheckpointExtra& extra);
+
+/// Fills `state` from a checkpoint. Throws FileError when the file is missing, cut short or changed, or belongs to
+/// another symmetry or other walls; `state` may then be half filled.
+/// Pre: state.symmetry and state.vessel are made from the scene.
+/// Post: all else is as written; the velocities seen are zero, also those of images, until the next step makes
+/// them.
+CheckpointExtra read_checkpoint(const std::string& path, State& state);
+
+/// The texts of a checkpoint alone: from its scene the caller makes symmetry and vessel. Throws as read_checkpoint.
+CheckpointExtra read_checkpoint_extra(const std::string& path);
+
+/// Whether the file is there and whole, by its checksum.
+bool checkpoint_is_valid(const std::string& path);
+
+/// The checkpoint with the most steps that is whole; nothing when there is none. Throws FileError when the folder
+/// cannot be read.
+std::optional<std::string> newest_valid_checkpoint(const std::string& folder);
+
+/// Removes all checkpoints of a folder but the `count` with the most steps, and what broken writes left behind.
+/// Throws FileError.
+void keep_last(const std::string& folder, std::size_t count);
+
+}  // namespace wedge
