@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "core/require.hpp"
 #include "core/time_scales.hpp"
@@ -24,7 +24,7 @@ double sphere_volume(double radius) { return sphere_mass(radius, 1.0); }  // m3
 
 /// Grains sorted by height. Pre: at least one grain.
 class Heights {
- public:
+public:
   explicit Heights(const State& state) : order_(grain_count(state)) {
     const Array<double>& z = state.particles.position.z;
     for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
@@ -36,7 +36,7 @@ class Heights {
   }
   std::size_t grain(std::size_t place) const { return order_[place]; }
 
- private:
+private:
   std::vector<std::size_t> order_;
 };
 
@@ -136,14 +136,14 @@ double angle_of_repose(const State& state, bool slot) {
     if (height > 0.1 && height < 0.9) slope.push_back(ring);
   }
   if (slope.size() < 4) return not_known;
-  Eigen::MatrixX2d line(static_cast<Eigen::Index>(slope.size()), 2);
-  Eigen::VectorXd height(static_cast<Eigen::Index>(slope.size()));
-  for (std::size_t k = 0; k < slope.size(); ++k) {
-    line.row(static_cast<Eigen::Index>(k)) << 1, slope[k].x();
-    height[static_cast<Eigen::Index>(k)] = slope[k].y();
+  Eigen::Vector2d centre(0, 0);
+  for (const Eigen::Vector2d& point : slope) centre += point / static_cast<double>(slope.size());
+  double along = 0, squares = 0;
+  for (const Eigen::Vector2d& point : slope) {
+    along += (point - centre).x() * (point - centre).y();
+    squares += (point - centre).x() * (point - centre).x();
   }
-  const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(height);
-  return std::atan(-fit[1]) * 180 / numbers::pi;
+  return std::atan(-along / squares) * 180 / numbers::pi;
 }
 
 [[noreturn]] void throw_at_line(const std::string& path, std::size_t line, const std::string& what) {
@@ -175,7 +175,7 @@ StageResult measure_bed(const State& state, const Scene& scene, const std::strin
   add("coordination number", "", coordination_number(state));
   const std::vector<WallLoad> loads = wall_loads(state);
   for (int w = 0; w < state.vessel.wall_count(); ++w)
-    add("load on " + state.vessel.wall(w).name, "N", -loads[static_cast<std::size_t>(w)].force.z * copies);
+    add("load on " + state.vessel.wall(w).name, "N", 0 - loads[static_cast<std::size_t>(w)].force.z * copies);
   double mass = 0;
   for (std::size_t i = 0; i < grain_count(state); ++i) mass += state.particles.mass[i];
   add("weight of all grains", "N", mass * scene.domain.gravity.norm() * copies);

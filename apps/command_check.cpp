@@ -17,13 +17,15 @@
 namespace wedge {
 namespace {
 
-// What the estimates assume; measured on dense beds of equal grains.
-constexpr double bytes_per_grain = 1000;                // memory: grain, near pairs, images, scratch
-constexpr double steps_per_core_second = 6e6;           // grains times steps
-constexpr double frame_numbers = 22, contact_numbers = 28;  // of 4 bytes (8 in double precision), packed
-constexpr double contacts_per_grain = 2.6;              // half of a coordination number of 5.2
-constexpr double checkpoint_bytes = 900;                // per grain
-constexpr double series_row_bytes = 700;                // a row of energies, ledger and walls together
+// What the estimates assume, as measured on dense beds of equal grains.
+constexpr double bytes_per_grain = 1000;         // memory: grain, near pairs, images, scratch
+constexpr double steps_per_core_second = 6e6;    // grains times steps
+constexpr double frame_bytes = 52;               // per grain, packed, single precision
+constexpr double contact_bytes = 58;             // per contact, packed, single precision
+constexpr double contacts_per_grain = 2.5;       // half of a coordination number of 5
+constexpr double double_precision_factor = 2.2;  // doubles are longer and pack less well
+constexpr double checkpoint_bytes = 550;         // per grain
+constexpr double series_row_bytes = 640;         // a row of energies, ledger and walls together
 
 std::string text_of(std::int64_t number) { return std::to_string(number); }
 
@@ -71,7 +73,8 @@ void print_time_step(const Scene& scene, double step, const std::string& name) {
   for (const double speed : meeting_speeds(scene)) {
     const double contact = collision_time(scene, speed);
     std::cout << "    a collision at " << short_number(std::round(speed * 1000) / 1000) << " m/s lasts "
-              << short_number(contact) << " s = " << short_number(std::round(10 * contact / step) / 10) << " steps\n";
+              << short_number(contact) << " s = " << short_number(std::round(10 * contact / step) / 10)
+              << " steps\n";
   }
 }
 
@@ -115,8 +118,9 @@ void print_domain(const Scene& scene, std::optional<std::int64_t> grains) {
   if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic) {
     std::cout << "  axis: no rule is needed here\n";
   } else if (domain.axis == AxisRule::clamp) {
-    std::cout << "  axis: clamp: a grain whose surface reaches the axis loses its velocity towards it, and does not "
-                 "meet its own images\n";
+    std::cout
+        << "  axis: clamp: a grain whose surface reaches the axis loses its velocity towards it, and does not "
+           "meet its own images\n";
   } else {
     std::cout << "  axis: images: a grain near the axis meets its own images, as in a vessel of exact "
               << domain.order << "-fold symmetry\n";
@@ -154,17 +158,16 @@ double steps_of(const Scene& scene) {
 
 void print_disk(const Scene& scene, double grains, double time, const char* at_most) {
   const Output& output = scene.output;
-  const double number = output.double_precision ? 8 : 4;
+  const double number = output.double_precision ? double_precision_factor : 1;
   double frames = 1 + static_cast<double>(scene.stages.size());
   for (const double t : output.frames_at) frames += t <= time ? 1 : 0;
   if (output.frames_every > 0) frames += std::floor(time / output.frames_every);
   const double rows = output.series_every > 0 ? time / output.series_every : 200 * time;
-  const double contacts = output.contacts ? frames * grains * contacts_per_grain * contact_numbers * number : 0;
+  const double contacts = output.contacts ? frames * grains * contacts_per_grain * contact_bytes * number : 0;
   std::cout << "  disk: " << at_most << text_of(std::llround(frames)) << " frames of grains, "
-            << size_text(frames * grains * frame_numbers * number) << "; contacts "
-            << (output.contacts ? size_text(contacts) : "none") << "; series "
-            << size_text(rows * series_row_bytes) << "; two checkpoints "
-            << size_text(2 * grains * checkpoint_bytes) << '\n';
+            << size_text(frames * grains * frame_bytes * number) << "; contacts "
+            << (output.contacts ? size_text(contacts) : "none") << "; series " << size_text(rows * series_row_bytes)
+            << "; two checkpoints " << size_text(2 * grains * checkpoint_bytes) << '\n';
 }
 
 void print_costs(const Scene& scene, double grains, int threads) {
@@ -185,9 +188,10 @@ void print_costs(const Scene& scene, double grains, int threads) {
     return;
   }
   const double steps = steps_of(scene);
-  std::cout << "  wall time: " << at_most << duration_text(steps * grains / (steps_per_core_second * used)) << " on "
-            << used << (used == 1 ? " thread" : " threads") << " (" << short_number(*time) << " s simulated, "
-            << text_of(std::llround(steps)) << " steps; assumes 6e6 grains times steps per second and core)\n";
+  std::cout << "  wall time: " << at_most << duration_text(steps * grains / (steps_per_core_second * used))
+            << " on " << used << (used == 1 ? " thread" : " threads") << " (" << short_number(*time)
+            << " s simulated, " << text_of(std::llround(steps))
+            << " steps; assumes 6e6 grains times steps per second and core)\n";
 }
 
 }  // namespace

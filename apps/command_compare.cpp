@@ -24,7 +24,8 @@ Tables read_tables(const std::vector<std::string>& folders) {
 }
 
 const StageResult* find_stage(const std::vector<StageResult>& table, const std::string& stage) {
-  const auto found = std::find_if(table.begin(), table.end(), [&](const StageResult& s) { return s.stage == stage; });
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const StageResult& s) { return s.stage == stage; });
   return found == table.end() ? nullptr : &*found;
 }
 
@@ -112,7 +113,8 @@ void print_stages(const Tables& reference, const Tables& with) {
     };
     print_stage(stage, reference, with);
     const auto first = finished(reference), second = finished(with);
-    if (first != static_cast<std::ptrdiff_t>(reference.size()) || second != static_cast<std::ptrdiff_t>(with.size()))
+    if (first != static_cast<std::ptrdiff_t>(reference.size()) ||
+        second != static_cast<std::ptrdiff_t>(with.size()))
       std::cout << "  finished by " << first << " of " << reference.size() << " reference and " << second << " of "
                 << with.size() << " compared runs\n";
   }

@@ -47,7 +47,7 @@ long last_frame(const RunFolder& folder) {
 
 /// A file for a moment, removed when it goes.
 class PassingFile {
- public:
+public:
   PassingFile() : path_((std::filesystem::temp_directory_path() / "wedge_export_XXXXXX").string()) {
     const int descriptor = mkstemp(path_.data());
     if (descriptor < 0) throw_file_error(path_, "cannot make a file", errno);
@@ -58,7 +58,7 @@ class PassingFile {
   ~PassingFile() { ::unlink(path_.c_str()); }
   const std::string& path() const { return path_; }
 
- private:
+private:
   std::string path_;
 };
 
@@ -109,7 +109,8 @@ Particles unfolded(const Particles& grains, const Symmetry& symmetry) {
       }
     });
   });
-  for (Vec3Array* vectors : {&all.position, &all.velocity, &all.angular_velocity, &all.force, &all.torque, &all.reference})
+  for (Vec3Array* vectors :
+       {&all.position, &all.velocity, &all.angular_velocity, &all.force, &all.torque, &all.reference})
     for (std::size_t k = 0; k < vectors->size(); ++k)
       vectors->set(k, symmetry.turn_vector(vectors->get(k), static_cast<int>(k / count)));
   for (std::size_t k = 0; k < all.id.size(); ++k)

@@ -58,10 +58,9 @@ double wall_time_of(const std::string& text) {
 
 /// The commands with their options; `todo` is what the chosen one does.
 class CommandLine {
- public:
+public:
   CommandLine(int argc, const char* const* argv) : words_(argv, argv + argc) {
     app_.set_version_flag("--version", "wedge " + version_text());
-    app_.footer(examples);
     app_.require_subcommand(0, 1);
     add_check();
     add_run();
@@ -70,6 +69,7 @@ class CommandLine {
     add_export();
     add_new();
     add_not_built();
+    app_.footer(examples);  // last, or every command would inherit it
   }
 
   int run() {
@@ -85,14 +85,15 @@ class CommandLine {
     return todo_();
   }
 
- private:
+private:
   std::vector<const char*> pointers() const {
     std::vector<const char*> all;
     for (const std::string& word : words_) all.push_back(word.c_str());
     return all;
   }
   static int usage(const std::string& problem) {
-    std::cerr << "wedge: " << problem << "\n`wedge --help` lists the commands, `wedge COMMAND --help` their options.\n";
+    std::cerr << "wedge: " << problem
+              << "\n`wedge --help` lists the commands, `wedge COMMAND --help` their options.\n";
     return exit_code::usage;
   }
   std::string unknown_command() const {
@@ -111,11 +112,11 @@ class CommandLine {
   }
   void scene_options(CLI::App* command) {
     command->add_option("SCENE", run_.scene, "scene file (TOML)")->required();
-    command->add_option("--set", run_.overrides, "KEY=VALUE: use this value instead of the scene's; may be repeated")
+    command->add_option("--set", run_.overrides, "use this value instead of the scene's; may be repeated")
         ->allow_extra_args(false)
         ->expected(1)
         ->take_all()
-        ->type_name("");
+        ->type_name("KEY=VALUE");
   }
   void thread_option(CLI::App* command) {
     command->add_option("-j,--threads", run_.threads, "number of threads (default: all this process may use)")
@@ -165,17 +166,15 @@ class CommandLine {
                   run_.folder);
     CLI::App* compare = command("compare", "Compare the beds of two sets of runs, stage by stage",
                                 [this] { return command_compare(reference_, with_); });
-    compare->add_option("REF", reference_, "folders of the reference runs")->required()->expected(1, 100000);
-    compare->add_option("--with", with_, "folders of the runs to compare")
-        ->required()
-        ->expected(1, 100000)
-        ->type_name("RUN ...");
+    compare->add_option("REF", reference_, "folders of the reference runs")->required();
+    compare->add_option("--with", with_, "folders of the runs to compare")->required()->type_name("RUN");
   }
   void add_export() {
     CLI::App* out = command("export", "Write a frame as a table (csv) or for a viewer (vtp), or the walls",
                             [this] { return export_checked(); });
     folder_option(out, export_.folder);
-    auto* frame = out->add_option("--frame", frame_, "number of the frame")->check(CLI::NonNegativeNumber)->type_name("K");
+    auto* frame =
+        out->add_option("--frame", frame_, "number of the frame")->check(CLI::NonNegativeNumber)->type_name("K");
     out->add_flag("--last", "the last frame (the default)")->excludes(frame);
     out->add_option("--to", export_.format, "csv (readable back as a starting state) or vtp")
         ->check(CLI::IsMember({"csv", "vtp"}))
@@ -192,8 +191,9 @@ class CommandLine {
   }
   void add_not_built() {
     for (const char* name : {"analyse", "report"})
-      command(name, "(not built yet)", [name] { return usage(std::string(name) + " is not built yet"); })
-          ->allow_extras();
+      command(name, "(not built yet)", [name] {
+        return usage(std::string(name) + " is not built yet");
+      })->allow_extras();
   }
 
   int export_checked() {
@@ -207,7 +207,8 @@ class CommandLine {
     return run_;
   }
 
-  CLI::App app_{"wedge: discrete-element simulation of grains in cylindrical vessels, whole or by the slice", "wedge"};
+  CLI::App app_{"wedge: discrete-element simulation of grains in cylindrical vessels, whole or by the slice",
+                "wedge"};
   std::vector<std::string> words_;
   std::function<int()> todo_;
   RunArguments run_;

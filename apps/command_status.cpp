@@ -14,7 +14,8 @@ int command_status(const std::string& folder) {
   const Progress p = read_progress(RunFolder(folder).progress());
   std::string line = folder + ": " + p.state;
   if (p.stage_number > 0)
-    line += ", stage " + std::to_string(p.stage_number) + " of " + std::to_string(p.stage_count) + " (" + p.stage + ")";
+    line +=
+        ", stage " + std::to_string(p.stage_number) + " of " + std::to_string(p.stage_count) + " (" + p.stage + ")";
   line += ", " + short_number(p.time) + " s simulated in " + std::to_string(p.step) + " steps of " +
           short_number(p.time_step) + " s, " + std::to_string(p.grains) + " grains, " +
           std::to_string(p.discharged) + " discharged, " + duration_text(p.wall_seconds) + " spent";

@@ -31,7 +31,8 @@ Simulation Simulation::begin(Scene scene, const RunFolder& folder) {
   Simulation s(std::move(scene), folder);
   s.state_ = std::make_unique<State>(make_start(*s.scene_));
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
-  s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
+  // A bed taken over from another run brings its forces along; the first step makes its list anew.
+  if (s.scene_->start_from.empty()) s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
   s.memory_.begin = s.step_->energies(*s.state_);
   s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, std::nullopt);
   return s;

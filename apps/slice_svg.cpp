@@ -9,6 +9,7 @@
 #include "apps/bed_table.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/scene_diagnostics.hpp"
 
 namespace wedge {
 namespace {
@@ -45,10 +46,14 @@ std::string label(double value, double step) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (static_cast<unsigned char>(c) >= 0x20) out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (static_cast<unsigned char>(c) >= 0x20)
+      out += c;
   }
   return out;
 }
@@ -139,10 +144,12 @@ Box view(const std::vector<Disc>& discs, const State& state, bool slot) {
 
 /// The drawing: metres to pixels, and the pieces of text it is made of.
 class Drawing {
- public:
+public:
   explicit Drawing(const Box& box)
-      : box_(box), scale_(plot_size / std::max(box.width(), box.height())),
-        right_(margin_left + scale_ * box.width()), bottom_(margin_top + scale_ * box.height()) {}
+      : box_(box),
+        scale_(plot_size / std::max(box.width(), box.height())),
+        right_(margin_left + scale_ * box.width()),
+        bottom_(margin_top + scale_ * box.height()) {}
 
   double x(double metres) const { return margin_left + scale_ * (metres - box_.left); }
   double y(double metres) const { return bottom_ - scale_ * (metres - box_.low); }
@@ -172,7 +179,7 @@ class Drawing {
            "\" font-family=\"sans-serif\" font-size=\"14\">\n" + text_ + "</svg>\n";
   }
 
- private:
+private:
   Box box_;
   double scale_;  // pixels per metre
   double right_, bottom_;
@@ -212,11 +219,10 @@ void draw_frame(Drawing& d) {
               "fill=\"none\" stroke=\"#444\" stroke-width=\"1\"");
   const double step = round_step(std::max(box.width(), box.height()), 2 * tick_count);
   const char* const tick = "stroke=\"#444\" stroke-width=\"1\"";
-  // Labels of a narrow plot would run into each other: every second one, or every fifth.
-  const double across = step * (d.scale() * step < 45 ? 2 : 1);
+  const double across = round_step(60 / d.scale(), 1);  // labels have 60 pixels each
   for (double k = std::ceil(box.left / across); k * across <= box.right; ++k) {
     d.line(d.x(k * across), d.bottom(), d.x(k * across), d.bottom() + 5, tick);
-    d.words(d.x(k * across), d.bottom() + 20, label(k * across, step), "text-anchor=\"middle\"");
+    d.words(d.x(k * across), d.bottom() + 20, label(k * across, across), "text-anchor=\"middle\"");
   }
   for (double k = std::ceil(box.low / step); k * step <= box.high; ++k) {
     d.line(margin_left - 5, d.y(k * step), margin_left, d.y(k * step), tick);
@@ -238,7 +244,8 @@ void draw_scale_bar(Drawing& d) {
 
 void draw_colour_bar(Drawing& d, double top_speed) {
   constexpr int pieces = 64;
-  const double height = std::min(240.0, 0.6 * (d.bottom() - margin_top)), left = d.right() + 20, top = margin_top + 24;
+  const double height = std::min(240.0, 0.6 * (d.bottom() - margin_top)), left = d.right() + 20,
+               top = margin_top + 24;
   for (int k = 0; k < pieces; ++k)  // a little taller than its share, so that no gap shows
     d.rectangle(left, top + height * (pieces - 1 - k) / pieces, 18, height / pieces + (k > 0 ? 0.6 : 0.0),
                 "fill=\"" + colour((k + 0.5) / pieces) + "\"");
@@ -259,9 +266,10 @@ void write_slice_svg(const std::string& path, const State& state, const Scene& s
   const std::vector<Disc> discs = slice(state);
   const double top_speed = fastest(discs);
   Drawing drawing(view(discs, state, slot));
-  drawing.add("<title>" + escaped(title) + "</title>");
+  const std::string heading = title + ", t = " + short_number(state.time) + " s";
+  drawing.add("<title>" + escaped(heading) + "</title>");
   drawing.rectangle(0, 0, drawing.right() + margin_right, drawing.bottom() + margin_low, "fill=\"#fff\"");
-  drawing.words(margin_left, 30, title, "font-size=\"17\"");
+  drawing.words(margin_left, 30, heading, "font-size=\"17\"");
   drawing.add("<clipPath id=\"plot\">");
   drawing.rectangle(margin_left, margin_top, drawing.right() - margin_left, drawing.bottom() - margin_top, "");
   drawing.add("</clipPath>\n<g clip-path=\"url(#plot)\">");

@@ -8,12 +8,12 @@ namespace wedge {
 
 /// Rows of words, each column as wide as its widest word; the first column is set left, the others right.
 class TextTable {
- public:
+public:
   void row(std::vector<std::string> words) { rows_.push_back(std::move(words)); }
   /// The table, each line after `indent`.
   std::string text(const std::string& indent = "") const;
 
- private:
+private:
   std::vector<std::vector<std::string>> rows_;
 };
 

@@ -83,9 +83,11 @@ TEST_CASE("A sector's quantities are those of the whole vessel") {
   CHECK(quantity(result, "coordination number") == Approx(2.0 / 3));
   CHECK(quantity(result, "weight of all grains") == Approx(12 * mass * 9.81));
   CHECK(quantity(result, "kinetic energy per grain") == Approx(0.5 * mass * 0.01 / 3));
-  // Hertz on a flat wall: 4/3 E* sqrt(R) overlap^(3/2), E* = E / (2 (1 - nu^2)); eight such grains in the whole vessel.
+  // Hertz on a flat wall: 4/3 E* sqrt(R) overlap^(3/2), E* = E / (2 (1 - nu^2)); eight such grains in the whole
+  // vessel.
   const double overlap = 0.001 * R, modulus = 1e7 / (2 * (1 - 0.09));
-  CHECK(quantity(result, "load on floor") == Approx(8 * 4.0 / 3 * modulus * std::sqrt(R) * std::pow(overlap, 1.5)).epsilon(1e-6));
+  CHECK(quantity(result, "load on floor") ==
+        Approx(8 * 4.0 / 3 * modulus * std::sqrt(R) * std::pow(overlap, 1.5)).epsilon(1e-6));
 }
 
 TEST_CASE("A grain's contact with its own copy half a turn away counts once") {

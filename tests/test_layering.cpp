@@ -20,8 +20,8 @@ std::vector<Source> sources(const std::string& folder) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(top / folder)) {
     const std::string extension = entry.path().extension().string();
     if (extension == ".hpp" || extension == ".cpp" || extension == ".h")
-      found.push_back({entry.path().lexically_relative(top).string(),
-                       wedge::read_text_file(entry.path().string())});
+      found.push_back(
+          {entry.path().lexically_relative(top).string(), wedge::read_text_file(entry.path().string())});
   }
   return found;
 }

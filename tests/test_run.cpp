@@ -1,0 +1,211 @@
+// test_run.cpp: whole runs: the same answer for any number of threads, after a restart and from run to run; ledgers; refusals.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "apps/commands.hpp"
+#include "apps/simulation.hpp"
+#include "core/parallel.hpp"
+#include "core/require.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/csv.hpp"
+#include "io/scene_file.hpp"
+#include "kernels/measure.hpp"
+#include "tests/catch.hpp"
+#include "tests/scratch_folder.hpp"
+
+using namespace wedge;
+
+namespace {
+
+/// A little hopper: a bed of two sizes and materials in a sector falls, settles and runs out.
+const char* little_hopper = R"(
+[domain]
+angle = 60
+outlet = { z = -0.01 }
+[[wall]]
+name = "shell"
+profile = [[0.03, 0], [0.03, 0.3]]
+material = "wall"
+[[wall]]
+name = "floor"
+profile = [[0.02, 0], [0.03, 0]]
+material = "wall"
+[[wall]]
+name = "plug"
+profile = [[0, 0], [0.02, 0]]
+material = "wall"
+[material.grain]
+density = 3800
+young = 1e7
+poisson = 0.3
+[material.wall]
+density = 3800
+young = 1e7
+poisson = 0.3
+[contact.grain-grain]
+sliding = 0.6
+rolling = "0.02 d"
+[contact.grain-wall]
+sliding = 0.5
+rolling = "0.02 d"
+[particles]
+sizes = [{ diameter = 0.005, fraction = 0.5, material = "grain" }, { diameter = 0.004, fraction = 0.5, material = "grain" }]
+count = 1500
+region = { r = [0, 0.03], z = [0, 0.26] }
+speed = 0.2
+[[stage]]
+name = "settle"
+until = 0.15
+[[stage]]
+name = "discharge"
+remove = ["plug"]
+until = 0.4
+[time]
+step = 2e-5
+[output]
+frames = 0.05
+series = 0.01
+)";
+
+struct Outcome {
+  std::uint64_t hash;
+  std::string energies, discharge, ledger, walls;
+};
+
+Outcome outcome_of(const std::string& folder) {
+  const RunFolder run(folder);
+  Scene scene = read_scene(run.resolved_scene(), {});
+  const Simulation last = Simulation::resume(std::move(scene), run);  // the finished run's last checkpoint
+  return {state_hash(last.state()), read_text_file(run.series("energies")), read_text_file(run.series("discharge")),
+          read_text_file(run.series("ledger")), read_text_file(run.series("walls"))};
+}
+
+void check_same(const Outcome& a, const Outcome& b) {
+  CHECK(a.hash == b.hash);
+  CHECK(a.energies == b.energies);
+  CHECK(a.discharge == b.discharge);
+  CHECK(a.ledger == b.ledger);
+  CHECK(a.walls == b.walls);
+}
+
+RunArguments arguments_for(const std::string& folder, int threads, std::vector<std::string> overrides = {}) {
+  const std::string scene = folder + ".toml";
+  std::ofstream(scene) << little_hopper;
+  RunArguments a;
+  a.scene = scene;
+  a.folder = folder;
+  a.threads = threads;
+  a.overrides = std::move(overrides);
+  return a;
+}
+
+std::vector<std::vector<double>> rows_of(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    rows.emplace_back();
+    for (const CsvField& f : split_csv_line(line)) {
+      double x = 0;
+      REQUIRE(parse_number(f.text, x) == NumberError::none);
+      rows.back().push_back(x);
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("a run gives the same bits for any number of threads, and after restarts", "[run]") {
+  const ScratchFolder scratch;
+  const std::string base = scratch.path() + "/";
+  CHECK(command_run(arguments_for(base + "one", 1)) == exit_code::ok);
+  const Outcome one = outcome_of(base + "one");
+  for (const int threads : {2, 3, 8}) {
+    const std::string folder = base + "threads" + std::to_string(threads);
+    CHECK(command_run(arguments_for(folder, threads)) == exit_code::ok);
+    check_same(outcome_of(folder), one);
+  }
+  SECTION("stopped three times and resumed, with other threads") {
+    RunArguments a = arguments_for(base + "stopped", 2);
+    a.until = 0.0731;
+    CHECK(command_run(a) == exit_code::ok);
+    for (const double until : {0.15, 0.2817}) {
+      a.until = until;
+      CHECK(command_resume(a) == exit_code::ok);
+    }
+    a.until.reset();
+    a.threads = 1;
+    CHECK(command_resume(a) == exit_code::ok);
+    check_same(outcome_of(base + "stopped"), one);
+    CHECK(std::filesystem::exists(base + "stopped/frames/particles_000011.hdf"));
+  }
+  SECTION("ledger, discharge and walls tell the truth") {
+    for (const auto& row : rows_of(one.ledger)) CHECK(row[1] == row[2] + row[3]);
+    const auto ledger = rows_of(one.ledger);
+    CHECK(ledger.front()[1] == 250);
+    CHECK(ledger.back()[3] == static_cast<double>(rows_of(one.discharge).size()));
+    CHECK(ledger.back()[3] > 15);
+    for (const auto& row : rows_of(one.discharge)) CHECK(row[1] <= row[0]);
+    const auto energies = rows_of(one.energies);
+    for (const auto& row : energies) CHECK(std::fabs(row.back()) < 0.02 * energies.front()[6]);  // residual against the potential energy at the start
+  }
+}
+
+TEST_CASE("a discharge may start from another run's bed, with its contact histories", "[run]") {
+  const ScratchFolder scratch;
+  const std::string base = scratch.path() + "/";
+  RunArguments a = arguments_for(base + "bed", 1);
+  a.until = 0.15;
+  CHECK(command_run(a) == exit_code::ok);
+  const Simulation bed = Simulation::resume(read_scene(base + "bed/scene.resolved.toml", {}), RunFolder(base + "bed"));
+  Scene next = read_scene(base + "bed/scene.resolved.toml", {"start.from=" + base + "bed"});
+  const Simulation start = Simulation::begin(next, RunFolder(base + "next"));
+  CHECK(state_hash(start.state()) == state_hash(bed.state()));  // histories are in the hash
+  CHECK(start.state().time == 0);
+  CHECK(start.state().put_in == bed.state().particles.count());
+  // Forces at the start are those the bed had: nothing jumps.
+  double largest = 0, worst = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(bed.state().particles.count()); ++i) {
+    for (std::size_t j = 0; j < static_cast<std::size_t>(start.state().particles.count()); ++j) {
+      if (bed.state().particles.id[i] != start.state().particles.id[j]) continue;
+      largest = std::max(largest, norm(bed.state().particles.force.get(i)));
+      worst = std::max(worst, norm(bed.state().particles.force.get(i) - start.state().particles.force.get(j)));
+    }
+  }
+  CHECK(worst == 0);
+  CHECK(largest > 0);
+}
+
+TEST_CASE("a folder that holds another run is refused and left alone", "[run]") {
+  const ScratchFolder scratch;
+  RunArguments a = arguments_for(scratch.path() + "/taken", 1, {"stage.settle.until=0.001", "stage.discharge.until=0.001"});
+  CHECK(command_run(a) == exit_code::ok);
+  const std::string before = read_text_file(scratch.path() + "/taken/series/energies.csv");
+  CHECK_THROWS_AS(command_run(a), FileError);
+  CHECK(read_text_file(scratch.path() + "/taken/series/energies.csv") == before);
+  a.folder = scratch.path() + "/nothing";
+  CHECK_THROWS_AS(command_resume(a), FileError);
+}
+
+TEST_CASE("a start with deep overlaps stops with a report and a crash frame", "[run]") {
+  const ScratchFolder scratch;
+  const std::string base = scratch.path() + "/";
+  std::ofstream(base + "state.csv") << "id,x,y,z,vx,vy,vz,wx,wy,wz,radius,material\n0,0.010,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n"
+                                       "1,0.0105,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n";
+  RunArguments a = arguments_for(base + "crash", 1);
+  std::string text = read_text_file(a.scene);
+  text.replace(text.find("sizes = "), text.find("[[stage]]") - text.find("sizes = "), "file = \"state.csv\"\ndiameter = 0.005\nmaterial = \"grain\"\n");
+  std::ofstream(a.scene) << text;
+  try {
+    command_run(a);
+    FAIL("it ran");
+  } catch (const PhysicsError& error) {
+    const std::string what = error.what();
+    CHECK(what.find("grains 0 and 1") != std::string::npos);
+    CHECK(what.find("Likely cause") != std::string::npos);
+  }
+}
