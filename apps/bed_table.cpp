@@ -73,7 +73,7 @@ double coordination_number(const State& state) {
   const ContactTable& c = state.contacts;
   double ends = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(c.rows()); ++k) {
-    if (!(c.half_overlap[k] > 0)) continue;
+    if (!(c.half_overlap(k) > 0)) continue;
     const Index image = c.second[k] - state.particles.count();
     const bool own_copy = image >= 0 && state.images.owner[static_cast<std::size_t>(image)] == c.first[k];
     ends += own_copy && 2 * c.turn[k] == state.symmetry.order() ? 1 : 2;

@@ -158,7 +158,7 @@ double steps_of(const Scene& scene) {
 
 void print_disk(const Scene& scene, double grains, double time, const char* at_most) {
   const Output& output = scene.output;
-  const double number = output.double_precision ? double_precision_factor : 1;
+  const double number = output.precision == FramePrecision::double_precision ? double_precision_factor : 1;
   double frames = 1 + static_cast<double>(scene.stages.size());
   for (const double t : output.frames_at) frames += t <= time ? 1 : 0;
   if (output.frames_every > 0) frames += std::floor(time / output.frames_every);

@@ -9,6 +9,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/commands.hpp"
+#include "apps/threads.hpp"
 #include "core/require.hpp"
 
 namespace {
@@ -28,6 +29,7 @@ int internal_error(std::string what) {
 
 int main(int argc, char** argv) {
   namespace code = wedge::exit_code;
+  wedge::bound_spinning(argv);
   try {
     const int result = wedge::run_command_line(argc, argv);
     std::cout.flush();

@@ -131,7 +131,7 @@ void Recorder::list_frames(const RunMemory& memory) const {
 void Recorder::record_frame(const State& state, RunMemory& memory) {
   FrameInfo info;
   info.scene_text = scene_.text;
-  info.precision = scene_.output.double_precision ? FramePrecision::double_precision : FramePrecision::single_precision;
+  info.precision = scene_.output.precision;
   info.number = static_cast<std::int64_t>(memory.frame_times.size());
   write_particle_frame(folder_.frame("particles", info.number), state, info);
   if (scene_.output.contacts) write_contact_frame(folder_.frame("contacts", info.number), state, info);

@@ -219,7 +219,7 @@ void draw_frame(Drawing& d) {
               "fill=\"none\" stroke=\"#444\" stroke-width=\"1\"");
   const double step = round_step(std::max(box.width(), box.height()), 2 * tick_count);
   const char* const tick = "stroke=\"#444\" stroke-width=\"1\"";
-  const double across = round_step(60 / d.scale(), 1);  // labels have 60 pixels each
+  const double across = round_step(45 / d.scale(), 1);  // labels have 45 pixels each
   for (double k = std::ceil(box.left / across); k * across <= box.right; ++k) {
     d.line(d.x(k * across), d.bottom(), d.x(k * across), d.bottom() + 5, tick);
     d.words(d.x(k * across), d.bottom() + 20, label(k * across, across), "text-anchor=\"middle\"");

@@ -1,14 +1,28 @@
 // threads.cpp: reads the processor affinity and the control group's quota.
 #include "apps/threads.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
 #include "core/parallel.hpp"
 
 namespace wedge {
+
+void bound_spinning(char** argv) {
+#ifdef __linux__
+  if (std::getenv("GOMP_SPINCOUNT") || std::getenv("KMP_BLOCKTIME") || std::getenv("OMP_WAIT_POLICY")) return;
+  ::setenv("GOMP_SPINCOUNT", "1000", 0);  // gcc's runtime: rounds, a few microseconds (perf/README.md, "Waiting")
+  ::setenv("KMP_BLOCKTIME", "1", 0);      // clang's runtime: milliseconds
+  ::execv("/proc/self/exe", argv);        // comes back only when it failed: then go on as we are
+#else
+  (void)argv;
+#endif
+}
 
 int usable_threads() {
   int threads = processor_count();

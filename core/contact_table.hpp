@@ -19,11 +19,15 @@ struct ContactTable {
   Vec3Array history;                // m, tangential displacement (see kernels/README.md for its half-step part)
   Vec3Array normal;                 // unit vector first -> second at the last force step
 
-  // Written by each force step, row by row; `force` acts on `first`.
-  Vec3Array force;             // N
-  Vec3Array lever_torque;      // N: n x f_t; times the lever arm it is the torque on either grain
-  Array<double> half_overlap;  // m: lever arm = radius - half_overlap
-  Array<double> rolling_cap;   // N m: mu_r |f_n|
+  // Written by each force step, row by row: eight numbers a row, so that a grain that sums its rows reads one cache line of
+  // each. In order: force on `first` [N] (3); n x f_t [N] (3), which times a lever arm is the torque on either grain;
+  // half of the overlap [m], lever arm = radius - half_overlap; mu_r |f_n| [N m].
+  static constexpr std::size_t outcome_size = 8;
+  Array<double> outcome;
+  Vec3 force(std::size_t row) const { return triple(row, 0); }
+  Vec3 lever_torque(std::size_t row) const { return triple(row, 3); }
+  double half_overlap(std::size_t row) const { return outcome[outcome_size * row + 6]; }
+  double rolling_cap(std::size_t row) const { return outcome[outcome_size * row + 7]; }
 
   // The rows in which a slot is `second`: incoming[incoming_begin[s] .. incoming_begin[s+1]-1], ascending. A contact
   // of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again.
@@ -31,7 +35,7 @@ struct ContactTable {
 
   Index rows() const { return static_cast<Index>(first.size()); }
 
-  /// Visits what must survive a restart, rows() entries each.
+  /// Visits what has rows() entries; with `outcome` it is what must survive a restart.
   template <class Self, class Visit>
   static void for_each_field(Self& c, Visit&& visit) {
     visit(FieldInfo{"first", "", "slot of the grain with the smaller id"}, c.first);
@@ -44,18 +48,17 @@ struct ContactTable {
     visit(FieldInfo{"normal_x", "", "unit normal of the last force step"}, c.normal.x);
     visit(FieldInfo{"normal_y", "", "unit normal of the last force step"}, c.normal.y);
     visit(FieldInfo{"normal_z", "", "unit normal of the last force step"}, c.normal.z);
-    visit(FieldInfo{"force_x", "N", "force on the grain with the smaller id"}, c.force.x);
-    visit(FieldInfo{"force_y", "N", "force on the grain with the smaller id"}, c.force.y);
-    visit(FieldInfo{"force_z", "N", "force on the grain with the smaller id"}, c.force.z);
-    visit(FieldInfo{"lever_torque_x", "N", "normal x tangential force"}, c.lever_torque.x);
-    visit(FieldInfo{"lever_torque_y", "N", "normal x tangential force"}, c.lever_torque.y);
-    visit(FieldInfo{"lever_torque_z", "N", "normal x tangential force"}, c.lever_torque.z);
-    visit(FieldInfo{"half_overlap", "m", "half of the overlap"}, c.half_overlap);
-    visit(FieldInfo{"rolling_cap", "N m", "torque that rolling friction can resist"}, c.rolling_cap);
   }
 
   void resize(Index rows) {
     for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(rows)); });
+    outcome.resize(outcome_size * static_cast<std::size_t>(rows));
+  }
+
+ private:
+  Vec3 triple(std::size_t row, std::size_t first_number) const {
+    const double* r = outcome.data() + outcome_size * row + first_number;
+    return {r[0], r[1], r[2]};
   }
 };
 

@@ -107,11 +107,13 @@ struct RestCriterion {
   double duration = 0;  // s;   0: 5 sqrt(d / |g|)
 };
 
+enum class FramePrecision { single_precision, double_precision };
+
 struct Output {
   double frames_every = 0;         // s of simulated time; 0: only at stage ends
   bool contacts = true;            // write a contacts frame with each frame
   std::vector<double> frames_at;   // s of simulated time
-  bool double_precision = false;   // of frames
+  FramePrecision precision = FramePrecision::single_precision;
   double series_every = 0;         // s; 0: 200 rows per simulated second
   double checkpoint_every = 600;   // s of wall time
   bool energy_budget = true;       // book dissipation step by step, so that energies.csv has a residual

@@ -82,6 +82,7 @@ void for_each_array(Self& s, Visit&& visit) {
   visit("contacts/incoming", s.contacts.incoming);
   ContactTable::for_each_field(
       s.contacts, [&](const FieldInfo& info, auto& field) { visit(std::string("contacts/") + info.name, field); });
+  visit("contacts/outcome", s.contacts.outcome);
   visit("wall_contacts/grain", s.wall_contacts.grain);
   visit("wall_contacts/begin", s.wall_contacts.begin);
   WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo& info, auto& field) {
@@ -257,6 +258,7 @@ void check_lengths(const State& s, const std::string& path) {
   ContactTable::for_each_field(s.contacts, [&](const FieldInfo&, const auto& field) {
     fit = fit && field.size() == static_cast<std::size_t>(s.contacts.rows());
   });
+  fit = fit && s.contacts.outcome.size() == ContactTable::outcome_size * static_cast<std::size_t>(s.contacts.rows());
   fit = fit && (s.contacts.row_begin.empty() || s.contacts.row_begin.size() == n + 1);
   WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo&, const auto& field) {
     fit = fit && field.size() == static_cast<std::size_t>(s.wall_contacts.rows());

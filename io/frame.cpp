@@ -137,7 +137,7 @@ ContactFrame touching_contacts(const State& state) {
   ContactFrame frame;
   std::vector<std::size_t> touching;
   for (std::size_t k = 0; k < static_cast<std::size_t>(rows.rows()); ++k) {
-    if (rows.half_overlap[k] > 0) touching.push_back(k);
+    if (rows.half_overlap(k) > 0) touching.push_back(k);
   }
   const std::size_t n = touching.size();
   ContactFrame::for_each_field(frame, [&](const FieldInfo&, auto& field) { field.resize(n); });
@@ -146,7 +146,7 @@ ContactFrame touching_contacts(const State& state) {
   for (std::size_t c = 0; c < n; ++c) {
     const std::size_t k = touching[c];
     const auto first = static_cast<std::size_t>(rows.first[k]);
-    const Vec3 normal = rows.normal.get(k), force = rows.force.get(k);
+    const Vec3 normal = rows.normal.get(k), force = rows.force(k);
     const double along = dot(force, normal);
     const Vec3 tangential = force - along * normal;
     frame.first_id[c] = state.particles.id[first];
@@ -159,7 +159,7 @@ ContactFrame touching_contacts(const State& state) {
     frame.tangential_force.set(c, tangential);
     frame.normal_load[c] = -along;
     frame.tangential_load[c] = norm(tangential);
-    frame.overlap[c] = 2 * rows.half_overlap[k];
+    frame.overlap[c] = 2 * rows.half_overlap(k);
   }
   return frame;
 }

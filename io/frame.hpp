@@ -14,8 +14,6 @@
 
 namespace wedge {
 
-enum class FramePrecision { single_precision, double_precision };
-
 /// What a frame says about itself besides its state.
 struct FrameInfo {
   std::string scene_text;

@@ -27,7 +27,6 @@ struct Names {
   }
 };
 
-enum class FramePrecision { single_precision, double_precision };
 enum class OnlyChoice { only };  // options of which one reading is built so far
 
 inline const Names<DomainKind> domain_kind_names{

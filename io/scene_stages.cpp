@@ -107,7 +107,7 @@ void read_settings(SceneReading& reading, const toml::table& root, Scene& scene)
   output.contacts = out.boolean("contacts").value_or(output.contacts);
   output.frames_at =
       out.numbers("at", Quantity::not_negative("a list of simulated times in s")).value_or(std::vector<double>{});
-  output.double_precision = out.choice("precision", frame_precision_names) == FramePrecision::double_precision;
+  if (const auto precision = out.choice("precision", frame_precision_names)) output.precision = *precision;
   output.series_every =
       out.number_or_auto("series", Quantity::not_negative("simulated seconds between rows")).value_or(0);
   output.checkpoint_every = out.number("checkpoints", Quantity::positive("seconds of wall time, such as 600"))

@@ -194,8 +194,7 @@ void write_settings(Writer& w, const Scene& scene) {
   w.line("frames", number(output.frames_every));
   w.line("contacts", boolean(output.contacts));
   w.line("at", list(output.frames_at, number));
-  w.line("precision", quoted(frame_precision_names.of(output.double_precision ? FramePrecision::double_precision
-                                                                              : FramePrecision::single_precision)));
+  w.line("precision", quoted(frame_precision_names.of(output.precision)));
   w.line("series", or_auto(output.series_every));
   w.line("checkpoints", number(output.checkpoint_every));
   w.line("energy_budget", boolean(output.energy_budget));

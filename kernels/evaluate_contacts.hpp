@@ -55,7 +55,13 @@ struct ContactPassArrays {
   const double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz;
   const Index *first, *second;
   double *hx, *hy, *hz, *nx, *ny, *nz;
-  double *fx, *fy, *fz, *qx, *qy, *qz, *half_overlap, *rolling_cap;
+  double* outcome;
+};
+
+/// Rows are computed a slab at a time: outcomes wait in columns, for the vector loop, and go to memory as one record a row.
+inline constexpr Index slab_size = 64;
+struct OutcomeSlab {
+  alignas(cache_line) double column[ContactTable::outcome_size][slab_size];
 };
 
 inline ContactPassArrays contact_pass_arrays(State& s) {
@@ -67,16 +73,15 @@ inline ContactPassArrays contact_pass_arrays(State& s) {
           c.first.data(), c.second.data(),
           c.history.x.data(), c.history.y.data(), c.history.z.data(),
           c.normal.x.data(), c.normal.y.data(), c.normal.z.data(),
-          c.force.x.data(), c.force.y.data(), c.force.z.data(),
-          c.lever_torque.x.data(), c.lever_torque.y.data(), c.lever_torque.z.data(),
-          c.half_overlap.data(), c.rolling_cap.data()};
+          c.outcome.data()};
 }
 
 /// One row: geometry, transport of the history, law, forces. Returns the losses of the step.
 /// The displacement grows by the trapezoidal rule: what is stored between steps is delta + (dt/2) v_t, so that the
 /// next half step needs no old velocity (kernels/README.md, "Stored displacement").
 template <class Law, Friction friction, class Mix>
-__attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix, const ContactPassArrays& a, Index k, double dt) {
+__attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix, const ContactPassArrays& a, Index k, double dt,
+                                                                   OutcomeSlab& slab, Index row) {
   const Index i = a.first[k], j = a.second[k];
   const auto pair = mix.pair(i, j);
   const Vec3 d{a.x[j] - a.x[i], a.y[j] - a.y[i], a.z[j] - a.z[i]};
@@ -103,17 +108,17 @@ __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix,
   const ContactResponse out = Law::respond(pair.coefficients, in);
   const double on = touching ? 1.0 : 0.0;
   const Vec3 force = on * (out.tangential - out.normal * n);
-  a.fx[k] = force.x;
-  a.fy[k] = force.y;
-  a.fz[k] = force.z;
-  a.half_overlap[k] = 0.5 * overlap;
+  slab.column[0][row] = force.x;
+  slab.column[1][row] = force.y;
+  slab.column[2][row] = force.z;
+  slab.column[6][row] = 0.5 * overlap;
   ContactLosses losses;
   losses.normal_damping = on * (out.normal - out.elastic_normal) * in.approach_velocity * dt;
   if constexpr (friction != Friction::none) {
     const Vec3 q = on * cross(n, out.tangential);
-    a.qx[k] = q.x;
-    a.qy[k] = q.y;
-    a.qz[k] = q.z;
+    slab.column[3][row] = q.x;
+    slab.column[4][row] = q.y;
+    slab.column[5][row] = q.z;
     const Vec3 stored = on * (out.displacement + (0.5 * dt) * in.tangential_velocity);
     a.hx[k] = stored.x;
     a.hy[k] = stored.y;
@@ -125,8 +130,15 @@ __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix,
     losses.tangential_damping = on * dt * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
     losses.sliding = on * out.sliding_loss;
   }
-  if constexpr (friction == Friction::rolling) a.rolling_cap[k] = on * pair.coefficients.rolling * std::fabs(out.normal);
+  if constexpr (friction == Friction::rolling) slab.column[7][row] = on * pair.coefficients.rolling * std::fabs(out.normal);
   return losses;
+}
+
+/// Writes the columns of a slab as one record for each of its rows.
+inline void store(const OutcomeSlab& slab, Index rows, double* outcome) {
+  for (Index row = 0; row < rows; ++row)
+    for (std::size_t c = 0; c < ContactTable::outcome_size; ++c)
+      outcome[ContactTable::outcome_size * static_cast<std::size_t>(row) + c] = slab.column[c][row];
 }
 
 /// Pre: images are fresh, velocity_seen is predicted to the time of the positions; dt [s] is the time since the last
@@ -141,15 +153,20 @@ void evaluate_contacts(const Mix& mix, State& state, double dt) {
         const ContactPassArrays a = arrays;
         const Mix m = mix;
         double normal_damping = 0, tangential_damping = 0, sliding = 0, tangential_work = 0;
-        WEDGE_SIMD_SUM(normal_damping, tangential_damping, sliding, tangential_work)
-        for (Index k = begin; k < end; ++k) {
-          const ContactLosses l = evaluate_row<Law, friction>(m, a, k, dt);
-          if constexpr (with_budget) {
-            normal_damping += l.normal_damping;
-            tangential_damping += l.tangential_damping;
-            sliding += l.sliding;
-            tangential_work += l.tangential_work;
+        OutcomeSlab slab{};
+        for (Index from = begin; from < end; from += slab_size) {
+          const Index rows = std::min(slab_size, end - from);
+          WEDGE_SIMD_SUM(normal_damping, tangential_damping, sliding, tangential_work)
+          for (Index row = 0; row < rows; ++row) {
+            const ContactLosses l = evaluate_row<Law, friction>(m, a, from + row, dt, slab, row);
+            if constexpr (with_budget) {
+              normal_damping += l.normal_damping;
+              tangential_damping += l.tangential_damping;
+              sliding += l.sliding;
+              tangential_work += l.tangential_work;
+            }
           }
+          store(slab, rows, a.outcome + ContactTable::outcome_size * static_cast<std::size_t>(from));
         }
         return ContactLosses{normal_damping, tangential_damping, sliding, tangential_work};
       },

@@ -12,11 +12,13 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Resizes without keeping what was there; makes room for growth, gives back memory that a denser time needed.
 template <class T>
 void resize_with_room(Array<T>& array, Index n) {
-  if (at(n) > array.capacity()) {
-    array.clear();
-    array.reserve(at(n + n / 16 + 64));
+  const std::size_t room = at(n + n / 16 + 64);
+  if (at(n) > array.capacity() || array.capacity() > 2 * room) {
+    Array<T>().swap(array);
+    array.reserve(room);
   }
   array.resize(at(n));
 }
@@ -106,13 +108,32 @@ void bin_images(const State& state, NeighbourScratch& s) {
   for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
 }
 
-/// Keeps what identifies and remembers the rows of the list before.
-void set_aside(ContactTable& c, NeighbourScratch& s) {
-  s.old_row_begin.swap(c.row_begin);
-  s.old_partner.swap(c.partner_id);
-  s.old_turn.swap(c.turn);
-  std::swap(s.old_history, c.history);
-  std::swap(s.old_normal, c.normal);
+/// Keeps identity, history and normal of the rows that touch: all that the next list can want of this one.
+void set_aside(const ContactTable& c, NeighbourScratch& s) {
+  const auto grains = static_cast<Index>(c.row_begin.size()) - 1;
+  s.old_row_begin.assign(at(std::max(grains, 0)) + 1, 0);
+  for_each(grains, [&](Index i) {
+    Index touching = 0;
+    for (Index k = c.row_begin[at(i)]; k < c.row_begin[at(i) + 1]; ++k) touching += c.half_overlap(at(k)) > 0;
+    s.old_row_begin[at(i) + 1] = touching;
+  });
+  std::partial_sum(s.old_row_begin.begin(), s.old_row_begin.end(), s.old_row_begin.begin());
+  const Index rows = s.old_row_begin.back();
+  for (Array<double>* field : {&s.old_history.x, &s.old_history.y, &s.old_history.z, &s.old_normal.x, &s.old_normal.y, &s.old_normal.z})
+    resize_with_room(*field, rows);
+  resize_with_room(s.old_partner, rows);
+  resize_with_room(s.old_turn, rows);
+  for_each(grains, [&](Index i) {
+    std::size_t to = at(s.old_row_begin[at(i)]);
+    for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) {
+      if (!(c.half_overlap(k) > 0)) continue;
+      s.old_partner[to] = c.partner_id[k];
+      s.old_turn[to] = c.turn[k];
+      s.old_history.set(to, c.history.get(k));
+      s.old_normal.set(to, c.normal.get(k));
+      ++to;
+    }
+  });
 }
 
 void report_overlap(const State& state, Index i, Index slot) {
@@ -143,7 +164,7 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
   const Particles& p = state.particles;
   ContactTable& c = state.contacts;
   const Index n = p.count();
-  const bool has_old = !s.old_row_begin.empty();
+  const bool has_old = s.old_row_begin.back() > 0;
   for (Index m = 0; m < count; ++m) {
     const std::size_t k = at(begin + m);
     const Index slot = seconds[m];
@@ -217,6 +238,7 @@ void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis) {
   }
   c.row_begin[at(n)] = rows;
   ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
+  resize_with_room(c.outcome, rows * static_cast<Index>(ContactTable::outcome_size));
   for_each_block(block_count(n), [&](Index b) {
     const Found& f = found[at(b)];
     const Index* next = f.second.data();

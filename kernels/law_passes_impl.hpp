@@ -30,7 +30,7 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
   ElasticEnergy sum;
   for (Index k = 0; k < c.rows(); ++k) {
     const auto r = static_cast<std::size_t>(k);
-    if (!(c.half_overlap[r] > 0)) continue;
+    if (!(c.half_overlap(r) > 0)) continue;
     const auto i = static_cast<std::size_t>(c.first[r]), j = static_cast<std::size_t>(c.second[r]);
     const Index n = p.count();
     const Index owner = c.second[r] < n ? c.second[r] : state.images.owner[j - static_cast<std::size_t>(n)];
@@ -39,7 +39,7 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
     const double mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
     const auto& coefficients = table(p.material[i], p.material[j]);
     const bool shared = owner == c.first[r] && 2 * c.turn[r] == state.symmetry.order();
-    const double part = shared ? 0.5 : 1.0, overlap = 2 * c.half_overlap[r];
+    const double part = shared ? 0.5 : 1.0, overlap = 2 * c.half_overlap(r);
     sum.normal += part * Law::normal_energy(coefficients, radius, mass, overlap);
     sum.tangential += part * Law::tangential_energy(coefficients, radius, mass, overlap, norm(c.history.get(r)));
   }

@@ -18,7 +18,7 @@ struct NeighbourScratch {
   Array<Index> image_begin, image_order;  // per cell: its images, in image order
   Array<double> real_buffer;
   Array<std::int32_t> whole_buffer;
-  // The contacts of the list before, for carrying histories.
+  // The touching contacts of the list before, for carrying histories, by the slots grains had then.
   Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
   Array<std::int32_t> old_partner, old_turn;
   Vec3Array old_history, old_normal;

@@ -6,6 +6,34 @@
 
 namespace wedge {
 
+/// Incoming rows lie far apart in memory: each is asked for this many rows before it is needed.
+inline constexpr Index prefetch_distance = 24;
+
+/// What a grain or an image feels: sums of row outcomes.
+struct Felt {
+  Vec3 force, torque;
+  double cap = 0;
+
+  /// Adds row r; `sign` is +1 for the first grain of the row, -1 for the second. A lever torque is the same for both.
+  template <Friction friction>
+  void add(const ContactTable& c, Index row, double sign, double radius) {
+    const auto r = static_cast<std::size_t>(row);
+    force += sign * c.force(r);
+    if constexpr (friction != Friction::none) torque += (radius - c.half_overlap(r)) * c.lever_torque(r);
+    if constexpr (friction == Friction::rolling) cap += c.rolling_cap(r);
+  }
+  /// Adds the rows in which `slot` is second, ascending.
+  template <Friction friction>
+  void add_incoming(const ContactTable& c, std::size_t slot, double radius) {
+    const Index last = static_cast<Index>(c.incoming.size()) - 1;
+    for (Index m = c.incoming_begin[slot]; m < c.incoming_begin[slot + 1]; ++m) {
+      const Index soon = c.incoming[static_cast<std::size_t>(std::min(m + prefetch_distance, last))];
+      __builtin_prefetch(c.outcome.data() + ContactTable::outcome_size * static_cast<std::size_t>(soon));
+      add<friction>(c, c.incoming[static_cast<std::size_t>(m)], -1, radius);
+    }
+  }
+};
+
 /// Pre: evaluate_contacts wrote all rows. Post: force, torque and rolling_cap of every grain are the sums of its own
 /// rows, ascending, and then of the rows in which it is `second`, ascending. Images are not yet folded back.
 template <Friction friction, class Bodies>
@@ -15,23 +43,12 @@ void reduce_forces(const Bodies& bodies, State& state) {
   for_each(p.count(), [&, bodies](Index i) {
     const auto s = static_cast<std::size_t>(i);
     const double radius = bodies.radius(i);
-    Vec3 force, torque;
-    double cap = 0;
-    for (Index k = c.row_begin[s]; k < c.row_begin[s + 1]; ++k) {
-      const auto r = static_cast<std::size_t>(k);
-      force += c.force.get(r);
-      if constexpr (friction != Friction::none) torque += (radius - c.half_overlap[r]) * c.lever_torque.get(r);
-      if constexpr (friction == Friction::rolling) cap += c.rolling_cap[r];
-    }
-    for (Index m = c.incoming_begin[s]; m < c.incoming_begin[s + 1]; ++m) {
-      const auto r = static_cast<std::size_t>(c.incoming[static_cast<std::size_t>(m)]);
-      force -= c.force.get(r);
-      if constexpr (friction != Friction::none) torque += (radius - c.half_overlap[r]) * c.lever_torque.get(r);
-      if constexpr (friction == Friction::rolling) cap += c.rolling_cap[r];
-    }
-    p.force.set(s, force);
-    if constexpr (friction != Friction::none) p.torque.set(s, torque);
-    if constexpr (friction == Friction::rolling) p.rolling_cap[s] = cap;
+    Felt felt;
+    for (Index k = c.row_begin[s]; k < c.row_begin[s + 1]; ++k) felt.add<friction>(c, k, +1, radius);
+    felt.add_incoming<friction>(c, s, radius);
+    p.force.set(s, felt.force);
+    if constexpr (friction != Friction::none) p.torque.set(s, felt.torque);
+    if constexpr (friction == Friction::rolling) p.rolling_cap[s] = felt.cap;
   });
 }
 
@@ -40,32 +57,24 @@ void reduce_forces(const Bodies& bodies, State& state) {
 template <Friction friction, class Bodies>
 void fold_images(const Bodies& bodies, State& state) {
   Particles& p = state.particles;
-  const ContactTable& c = state.contacts;
   const ImageMap& images = state.images;
-  const Index n = p.count();
+  const auto n = static_cast<std::size_t>(p.count());
   for_each(images.count(), [&, bodies](Index first) {
     const Index owner = images.owner[static_cast<std::size_t>(first)];
     if (first > 0 && images.owner[static_cast<std::size_t>(first - 1)] == owner) return;  // a sibling does it
     const auto o = static_cast<std::size_t>(owner);
-    const double radius = bodies.radius(owner);
-    Vec3 force = p.force.get(o), torque = p.torque.get(o);
-    double cap = p.rolling_cap[o];
-    for (Index m = first; m < images.count() && images.owner[static_cast<std::size_t>(m)] == owner; ++m) {
-      const auto s = static_cast<std::size_t>(n + m);
-      Vec3 image_force, image_torque;
-      for (Index q = c.incoming_begin[s]; q < c.incoming_begin[s + 1]; ++q) {
-        const auto r = static_cast<std::size_t>(c.incoming[static_cast<std::size_t>(q)]);
-        image_force -= c.force.get(r);
-        if constexpr (friction != Friction::none) image_torque += (radius - c.half_overlap[r]) * c.lever_torque.get(r);
-        if constexpr (friction == Friction::rolling) cap += c.rolling_cap[r];
-      }
-      const int back = -images.turn[static_cast<std::size_t>(m)];
-      force += state.symmetry.turn_vector(image_force, back);
-      if constexpr (friction != Friction::none) torque += state.symmetry.turn_vector(image_torque, back);
+    Felt sum{p.force.get(o), p.torque.get(o), p.rolling_cap[o]};
+    for (auto m = static_cast<std::size_t>(first); m < images.owner.size() && images.owner[m] == owner; ++m) {
+      Felt felt;
+      felt.add_incoming<friction>(state.contacts, n + m, bodies.radius(owner));
+      const int back = -images.turn[m];
+      sum.force += state.symmetry.turn_vector(felt.force, back);
+      if constexpr (friction != Friction::none) sum.torque += state.symmetry.turn_vector(felt.torque, back);
+      if constexpr (friction == Friction::rolling) sum.cap += felt.cap;
     }
-    p.force.set(o, force);
-    if constexpr (friction != Friction::none) p.torque.set(o, torque);
-    if constexpr (friction == Friction::rolling) p.rolling_cap[o] = cap;
+    p.force.set(o, sum.force);
+    if constexpr (friction != Friction::none) p.torque.set(o, sum.torque);
+    if constexpr (friction == Friction::rolling) p.rolling_cap[o] = sum.cap;
   });
 }
 

@@ -1,14 +1,18 @@
 // bench_step.cpp: how many particle-steps per second does the whole step do? Needs a compiler and Eigen's headers only.
 //
 //   bench_step --case column --particles N --threads T --rolling on|off --steps S [--angle DEGREES] [--settle SECONDS]
+//              [--budget on|off] [--start FILE]
 //
 // Case `column`: hopper grains (PHYSICS section 4) in a flat-bottomed cylinder of diameter 0.2 m, settled from a random
-// fill, then timed. The last line is `particle_steps_per_second <number>`: the median of five windows of S steps.
+// fill, or from the places in FILE (lines "x y z" [m], then settled as long), then timed. The last line is `particle_steps_per_second <number>`: the median of five windows of S steps.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -50,12 +54,29 @@ Scene column_scene(long particles, bool rolling, int order) {
   return s;
 }
 
+void read_places(State& state, const Scene& scene, const std::string& path) {
+  std::ifstream file(path);
+  std::vector<Vec3> places;
+  for (Vec3 x; file >> x.x >> x.y >> x.z;) places.push_back(x);
+  Particles& p = state.particles;
+  p.resize(static_cast<Index>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    p.position.set(i, places[i]);
+    p.velocity.set(i, {});
+    p.angular_velocity.set(i, {});
+    p.radius[i] = 0.0025;
+    p.material[i] = 0;
+    p.id[i] = static_cast<std::int32_t>(i);
+  }
+  complete_grains(p, scene.materials, 0.005);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::map<std::string, std::string> option{{"case", "column"}, {"particles", "32000"}, {"threads", "1"}, {"precision", "double"},
                                             {"rolling", "on"},  {"steps", "500"},       {"angle", "360"}, {"settle", "0.7"},
-                                            {"budget", "on"}};
+                                            {"budget", "on"}, {"start", ""}};
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strncmp(argv[i], "--", 2) != 0 || !option.count(argv[i] + 2)) {
       std::fprintf(stderr, "bench_step: unknown option %s\n", argv[i]);
@@ -75,7 +96,11 @@ int main(int argc, char** argv) {
   State state;
   if (scene.domain.order > 1) state.symmetry = Symmetry::rotation(scene.domain.order);
   state.vessel = Vessel(scene);
-  fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
+  if (option["start"].empty()) {
+    fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
+  } else {
+    read_places(state, scene, option["start"]);
+  }
   describe_grains(state);
   TimeStep settle(scene, state);
   settle.start(state, dt);
@@ -94,7 +119,7 @@ int main(int argc, char** argv) {
   }
   std::sort(rates.begin(), rates.end());
   long touching = 0;
-  for (const double h : state.contacts.half_overlap) touching += h > 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k) touching += state.contacts.half_overlap(k) > 0;
   std::printf("grains %.0f images %d pairs/grain %.3f contacts/grain %.3f lists %lld in %d steps; settling %.0f particle-steps/s\n", n,
               state.images.count(), state.contacts.rows() / n, static_cast<double>(touching) / n,
               static_cast<long long>(state.list_builds - builds), 5 * steps, n * static_cast<double>(state.step - 5 * steps) / settle_seconds);
@@ -104,6 +129,9 @@ int main(int argc, char** argv) {
     std::printf("%-20s %6.1f ns per particle-step  %5.1f %%\n", pass.c_str(), 1e9 * t.seconds / (n * 5 * steps), 100 * t.seconds / total);
   const Energies e = step.energies(state);
   std::printf("kinetic energy per grain %.3g J\n", (e.kinetic + e.rotational) / n);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("peak memory per grain %.0f B\n", 1024.0 * static_cast<double>(usage.ru_maxrss) / n);
   std::printf("slowest %.0f fastest %.0f\n", rates.front(), rates.back());
   std::printf("particle_steps_per_second %.0f\n", rates[2]);
 }

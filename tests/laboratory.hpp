@@ -111,8 +111,14 @@ class Experiment {
   /// Contacts of grains that touch, as the list has them.
   int touching() const {
     int n = 0;
-    for (const double h : state.contacts.half_overlap) n += h > 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k) n += state.contacts.half_overlap(k) > 0;
     return n;
+  }
+  double deepest_overlap() const {
+    double deepest = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k)
+      deepest = std::max(deepest, 2 * state.contacts.half_overlap(k));
+    return deepest;
   }
   int touching_walls() const {
     int n = 0;

@@ -76,7 +76,9 @@ inline State sample_state(Index grains = 5) {
   s.contacts.first = {0, 0, 1};
   s.contacts.second = {1, 2, grains + 1};
   s.contacts.turn = {0, 0, -1};
-  s.contacts.half_overlap = {1e-5, -2e-5, 3e-5};
+  fill_sample(s.contacts.outcome, next, start += 100);
+  const double half_overlaps[] = {1e-5, -2e-5, 3e-5};
+  for (std::size_t k = 0; k < 3; ++k) s.contacts.outcome[ContactTable::outcome_size * k + 6] = half_overlaps[k];
   s.contacts.normal.set(0, {0.6, 0, 0.8});
   s.contacts.normal.set(2, {0, -0.8, 0.6});
   s.contacts.row_begin.assign(static_cast<std::size_t>(grains) + 1, 3);

@@ -48,6 +48,7 @@ std::string bytes_of(const State& s) {
   append_bytes(bytes, s.contacts.incoming);
   ContactTable::for_each_field(s.contacts,
                                [&](const FieldInfo&, const auto& field) { append_bytes(bytes, field); });
+  append_bytes(bytes, s.contacts.outcome);
   append_bytes(bytes, s.wall_contacts.grain);
   append_bytes(bytes, s.wall_contacts.begin);
   WallContactTable::for_each_field(s.wall_contacts,

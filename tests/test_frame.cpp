@@ -98,7 +98,7 @@ TEST_CASE("a contact frame holds the touching rows with their forces taken apart
   const std::size_t rows[2] = {0, 2};
   for (std::size_t c = 0; c < 2; ++c) {
     const std::size_t k = rows[c];
-    const Vec3 force = state.contacts.force.get(k), normal = state.contacts.normal.get(k);
+    const Vec3 force = state.contacts.force(k), normal = state.contacts.normal.get(k);
     const auto first = static_cast<std::size_t>(state.contacts.first[k]);
     CHECK(frame.first_id[c] == state.particles.id[first]);
     CHECK(frame.second_id[c] == state.contacts.partner_id[k]);
@@ -108,7 +108,7 @@ TEST_CASE("a contact frame holds the touching rows with their forces taken apart
     CHECK(norm(cross(frame.normal_force.get(c), normal)) < 1e-15);
     CHECK(frame.normal_load[c] == Approx(-dot(force, normal)));
     CHECK(frame.tangential_load[c] == Approx(norm(cross(force, normal))));
-    CHECK(frame.overlap[c] == 2 * state.contacts.half_overlap[k]);
+    CHECK(frame.overlap[c] == 2 * state.contacts.half_overlap(k));
     CHECK(frame.first_position.x[c] == state.particles.position.x[first]);
   }
   // Across the face the line ends at the image, slot 6 of 5 grains and 2 images.

@@ -22,8 +22,8 @@ Impact head_on(const Scene& scene, double radius, double speed, double dt) {
         touched = touched || now;
         if (now) {
           r.duration += dt;
-          r.overlap_max = std::max(r.overlap_max, 2 * e.state.contacts.half_overlap[0]);
-          r.force_max = std::max(r.force_max, norm(e.state.contacts.force.get(0)));
+          r.overlap_max = std::max(r.overlap_max, e.deepest_overlap());
+          r.force_max = std::max(r.force_max, norm(e.state.contacts.force(0)));
         }
         return touched && !now;
       },

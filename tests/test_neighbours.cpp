@@ -123,12 +123,12 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
     for (std::size_t r = 0; r < static_cast<std::size_t>(s.contacts.rows()); ++r) {
       const auto i = static_cast<std::size_t>(s.contacts.first[r]), slot = static_cast<std::size_t>(s.contacts.second[r]);
       const std::size_t j = slot < n ? slot : static_cast<std::size_t>(s.images.owner[slot - n]);
-      const Vec3 f = s.contacts.force.get(r), q = s.contacts.lever_torque.get(r);
+      const Vec3 f = s.contacts.force(r), q = s.contacts.lever_torque(r);
       force[i] += f;
-      torque[i] += (s.particles.radius[i] - s.contacts.half_overlap[r]) * q;
+      torque[i] += (s.particles.radius[i] - s.contacts.half_overlap(r)) * q;
       if (i == j && 2 * s.contacts.turn[r] == c.order) continue;
       force[j] -= s.symmetry.turn_vector(f, -s.contacts.turn[r]);
-      torque[j] += (s.particles.radius[j] - s.contacts.half_overlap[r]) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
+      torque[j] += (s.particles.radius[j] - s.contacts.half_overlap(r)) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
     }
     double scale = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {

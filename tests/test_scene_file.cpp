@@ -179,7 +179,7 @@ threads = 3
   check_round_trip(scene);
   const Scene again = parse(resolved_scene(scene));
   CHECK(again.output.frames_at == std::vector<double>{0.05, 1});
-  CHECK(again.output.double_precision);
+  CHECK(again.output.precision == FramePrecision::double_precision);
   CHECK_FALSE(again.output.energy_budget);
   CHECK(again.run.skin == scene.run.skin);
   CHECK(again.stages[1].time_step == 1e-5);

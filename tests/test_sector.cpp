@@ -78,7 +78,7 @@ TEST_CASE("ring breathing: a grain meets its own copies", "[sector][images]") {
     Experiment e(s, {{R, turned({r, 0, 0.1}, phi), turned({-0.1, 0, 0}, phi), {}}}, 1e-6);
     double least = r, deepest = 0;
     e.run_until([&] { least = std::min(least, radius_of(e.x(0)));
-                      for (const double h : e.state.contacts.half_overlap) deepest = std::max(deepest, 2 * h);
+                      deepest = std::max(deepest, e.deepest_overlap());
                       return radius_of(e.x(0)) > r; }, 100000);
     CHECK(least / d == Approx(row.turning_radius).margin(1e-4));
     CHECK(deepest / d == Approx(row.overlap).epsilon(1e-3));
@@ -133,7 +133,7 @@ TEST_CASE("unfold and compare: a sector and the full vessel with symmetric data 
         for (Index k = 0; k < slice.state.contacts.rows(); ++k) {
           const auto r = static_cast<std::size_t>(k);
           const Index slot = slice.state.contacts.second[r], grains_here = slice.state.particles.count();
-          if (slice.state.contacts.half_overlap[r] > 0 && slot >= grains_here && 2 * slice.state.contacts.turn[r] == n &&
+          if (slice.state.contacts.half_overlap(r) > 0 && slot >= grains_here && 2 * slice.state.contacts.turn[r] == n &&
               slice.state.images.owner[static_cast<std::size_t>(slot - grains_here)] == slice.state.contacts.first[r])
             ++halves;
         }
