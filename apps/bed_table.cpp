@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <Eigen/Core>
 
@@ -106,26 +107,41 @@ double ground(const State& state, double peak) {
   return height;
 }
 
-/// Highest grain surface of each ring one mean diameter wide: (distance from the axis, height) [m].
-std::vector<Eigen::Vector2d> upper_envelope(const State& state, bool slot) {
+/// Surface of a pile, ring by ring one mean diameter wide: mean distance from the axis and mean height [m] of the highest
+/// grains, one from each cell of about one diameter along the ring.
+std::vector<Eigen::Vector2d> mean_surface(const State& state, bool slot) {
   const Particles& p = state.particles;
   const double width = state.mean_diameter;
-  std::vector<Eigen::Vector2d> rings;
-  if (!(width > 0)) return rings;
+  if (!(width > 0)) return {};
+  std::map<std::pair<std::size_t, std::size_t>, Eigen::Vector2d> highest;  // by ring and cell: (r, top)
   for (std::size_t i = 0; i < grain_count(state); ++i) {
-    const double r = slot ? std::abs(p.position.x[i]) : std::hypot(p.position.x[i], p.position.y[i]);
+    const Vec3 x = p.position.get(i);
+    const double r = slot ? std::abs(x.x) : std::hypot(x.x, x.y);
     const auto ring = static_cast<std::size_t>(r / width);
-    if (ring >= rings.size()) rings.resize(ring + 1, {0, -std::numeric_limits<double>::infinity()});
-    const double top = p.position.z[i] + p.radius[i];
-    if (top > rings[ring].y()) rings[ring] = {r, top};
+    const double along = slot ? x.y : (std::atan2(x.y, x.x) + numbers::pi) * (static_cast<double>(ring) + 0.5) * width;
+    const double top = x.z + p.radius[i];
+    const auto cell = std::make_pair(ring, static_cast<std::size_t>(std::max(0.0, along) / width));
+    const auto found = highest.try_emplace(cell, r, top).first;
+    if (top > found->second.y()) found->second = {r, top};
   }
-  return rings;
+  std::vector<Eigen::Vector2d> sums;
+  std::vector<double> cells;
+  for (const auto& [cell, point] : highest) {
+    sums.resize(cell.first + 1, Eigen::Vector2d::Zero());
+    cells.resize(cell.first + 1, 0);
+    sums[cell.first] += point;
+    cells[cell.first] += 1;
+  }
+  std::vector<Eigen::Vector2d> surface;
+  for (std::size_t ring = 0; ring < sums.size(); ++ring)
+    if (cells[ring] > 0) surface.emplace_back(sums[ring] / cells[ring]);
+  return surface;
 }
 
-/// Slope of the surface as an angle [deg]: the line through the upper envelope between 10 % and 90 % of the peak,
+/// Slope of the surface as an angle [deg]: the line through the mean surface between 10 % and 90 % of its peak,
 /// by least squares. Not known with fewer than four rings there, as on a bed with a flat surface.
 double angle_of_repose(const State& state, bool slot) {
-  const std::vector<Eigen::Vector2d> rings = upper_envelope(state, slot);
+  const std::vector<Eigen::Vector2d> rings = mean_surface(state, slot);
   double peak = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& ring : rings) peak = std::max(peak, ring.y());
   if (!std::isfinite(peak)) return not_known;
