@@ -107,8 +107,8 @@ double ground(const State& state, double peak) {
   return height;
 }
 
-/// Surface of a pile, ring by ring one mean diameter wide: mean distance from the axis and mean height [m] of the highest
-/// grains, one from each cell of about one diameter along the ring.
+/// Surface of a pile, ring by ring one mean diameter wide: mean distance from the axis and mean height [m] of the
+/// highest grains, one from each cell of about one diameter along the ring.
 std::vector<Eigen::Vector2d> mean_surface(const State& state, bool slot) {
   const Particles& p = state.particles;
   const double width = state.mean_diameter;
@@ -118,7 +118,8 @@ std::vector<Eigen::Vector2d> mean_surface(const State& state, bool slot) {
     const Vec3 x = p.position.get(i);
     const double r = slot ? std::abs(x.x) : std::hypot(x.x, x.y);
     const auto ring = static_cast<std::size_t>(r / width);
-    const double along = slot ? x.y : (std::atan2(x.y, x.x) + numbers::pi) * (static_cast<double>(ring) + 0.5) * width;
+    const double along =
+        slot ? x.y : (std::atan2(x.y, x.x) + numbers::pi) * (static_cast<double>(ring) + 0.5) * width;
     const double top = x.z + p.radius[i];
     const auto cell = std::make_pair(ring, static_cast<std::size_t>(std::max(0.0, along) / width));
     const auto found = highest.try_emplace(cell, r, top).first;

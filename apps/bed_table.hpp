@@ -20,15 +20,17 @@ struct StageResult {
   std::vector<BedQuantity> quantities;  // the same names in the same order for every stage of a run
 };
 
-/// Measures the bed; `discharge_rate` [1/s] of the domain and `wall_seconds` of the stage come from the run's driver.
-StageResult measure_bed(const State& state, const Scene& scene, const std::string& stage, double discharge_rate, double wall_seconds);
+/// Measures the bed; `discharge_rate` [1/s] of the domain and `wall_seconds` of the stage come from the run's
+/// driver.
+StageResult measure_bed(const State& state, const Scene& scene, const std::string& stage, double discharge_rate,
+                        double wall_seconds);
 
 /// Writes and reads RunFolder::beds(). Throws FileError.
 void write_bed_table(const std::string& path, const std::vector<StageResult>& stages);
 std::vector<StageResult> read_bed_table(const std::string& path);
 
-/// Picture (SVG) of the grains within 2 mean diameters of the plane y = 0, a sector unfolded to the whole vessel, coloured by
-/// speed, with the walls and a colour bar. Throws FileError.
+/// Picture (SVG) of the grains within 2 mean diameters of the plane y = 0, a sector unfolded to the whole vessel,
+/// coloured by speed, with the walls and a colour bar. Throws FileError.
 void write_slice_svg(const std::string& path, const State& state, const Scene& scene, const std::string& title);
 
 }  // namespace wedge

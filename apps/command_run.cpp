@@ -27,8 +27,9 @@ namespace fs = std::filesystem;
 
 /// Holds the run's log open and locked, so that no second program writes into the same folder.
 class FolderLock {
- public:
-  explicit FolderLock(const RunFolder& folder) : descriptor_(::open(folder.log().c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
+public:
+  explicit FolderLock(const RunFolder& folder)
+      : descriptor_(::open(folder.log().c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
     if (descriptor_ < 0) throw_file_error(folder.log(), "cannot open", errno);
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       ::close(descriptor_);
@@ -39,7 +40,7 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
   ~FolderLock() { ::close(descriptor_); }
 
- private:
+private:
   int descriptor_;
 };
 
@@ -50,7 +51,8 @@ void claim_folder(const RunFolder& folder) {
   if (error) throw FileError(folder.path() + ": cannot make the folder: " + error.message());
   for (const std::string& mark : {folder.scene(), folder.resolved_scene(), folder.log()})
     if (fs::exists(mark))
-      throw FileError(folder.path() + ": holds another run (" + fs::path(mark).filename().string() + "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
+      throw FileError(folder.path() + ": holds another run (" + fs::path(mark).filename().string() +
+                      "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
 }
 
 void print_timings(Simulation& run) {
@@ -58,7 +60,8 @@ void print_timings(Simulation& run) {
   for (const auto& [pass, t] : run.stopwatch().times()) total += t.seconds;
   std::printf("%-20s %10s %7s %12s\n", "pass", "seconds", "share", "calls");
   for (const auto& [pass, t] : run.stopwatch().times())
-    std::printf("%-20s %10.3f %6.1f%% %12lld\n", pass.c_str(), t.seconds, 100 * t.seconds / total, static_cast<long long>(t.calls));
+    std::printf("%-20s %10.3f %6.1f%% %12lld\n", pass.c_str(), t.seconds, 100 * t.seconds / total,
+                static_cast<long long>(t.calls));
 }
 
 int finish(Simulation& run, RunEnd end, const RunFolder& folder, const RunArguments& arguments) {
@@ -66,18 +69,24 @@ int finish(Simulation& run, RunEnd end, const RunFolder& folder, const RunArgume
   getrusage(RUSAGE_SELF, &usage);
   const State& state = run.state();
   if (arguments.timings) print_timings(run);
-  std::printf("%s: %lld steps, %.6g s simulated, %d grains inside, %lld out, peak memory %.0f MB, state %016llx\n", folder.path().c_str(),
-              static_cast<long long>(state.step), state.time, state.particles.count(), static_cast<long long>(state.taken_out),
-              static_cast<double>(usage.ru_maxrss) / 1024, static_cast<unsigned long long>(state_hash(state)));
+  std::printf("%s: %lld steps, %.6g s simulated, %d grains inside, %lld out, peak memory %.0f MB, state %016llx\n",
+              folder.path().c_str(), static_cast<long long>(state.step), state.time, state.particles.count(),
+              static_cast<long long>(state.taken_out), static_cast<double>(usage.ru_maxrss) / 1024,
+              static_cast<unsigned long long>(state_hash(state)));
   switch (end) {
     case RunEnd::interrupted:
       std::printf("interrupted, with a checkpoint; go on with: wedge resume %s\n", folder.path().c_str());
       return exit_code::interrupted;
     case RunEnd::wall_time:
-      std::printf("stopped at the wall-time limit, with a checkpoint; go on with: wedge resume %s\n", folder.path().c_str());
+      std::printf("stopped at the wall-time limit, with a checkpoint; go on with: wedge resume %s\n",
+                  folder.path().c_str());
       return exit_code::wall_time;
-    case RunEnd::until: std::printf("stopped at %g s, with a checkpoint; go on with: wedge resume %s\n", state.time, folder.path().c_str()); break;
-    case RunEnd::finished: break;
+    case RunEnd::until:
+      std::printf("stopped at %g s, with a checkpoint; go on with: wedge resume %s\n", state.time,
+                  folder.path().c_str());
+      break;
+    case RunEnd::finished:
+      break;
   }
   return exit_code::ok;
 }
@@ -92,7 +101,8 @@ int choose_threads(int asked, const Scene& scene) {
 
 int command_run(const RunArguments& arguments) {
   Scene scene = read_scene(arguments.scene, arguments.overrides);
-  for (const std::string& warning : scene_warnings(scene)) std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), warning.c_str());
+  for (const std::string& warning : scene_warnings(scene))
+    std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), warning.c_str());
   const RunFolder folder(arguments.folder);
   claim_folder(folder);
   const FolderLock lock(folder);
@@ -108,7 +118,8 @@ int command_run(const RunArguments& arguments) {
 
 int command_resume(const RunArguments& arguments) {
   const RunFolder folder(arguments.folder);
-  if (!fs::exists(folder.resolved_scene())) throw FileError(folder.path() + ": holds no run (scene.resolved.toml is missing)");
+  if (!fs::exists(folder.resolved_scene()))
+    throw FileError(folder.path() + ": holds no run (scene.resolved.toml is missing)");
   Scene scene = read_scene(folder.resolved_scene(), {});
   scene.text = read_text_file(folder.scene());
   const FolderLock lock(folder);

@@ -9,16 +9,16 @@ namespace wedge {
 
 /// Exit codes of the program.
 namespace exit_code {
-inline constexpr int ok = 0, internal = 1, usage = 2, scene = 3, file = 4, physics = 5, tolerance = 6, wall_time = 75,
-                     interrupted = 130;
+inline constexpr int ok = 0, internal = 1, usage = 2, scene = 3, file = 4, physics = 5, tolerance = 6,
+                     wall_time = 75, interrupted = 130;
 }
 
 struct RunArguments {
   std::string scene, folder;
   std::vector<std::string> overrides;
-  int threads = 0;            // 0: what the container may use
-  bool timings = false;       // print the time of each pass at the end
-  double wall_time = 0;       // s; 0: no limit
+  int threads = 0;              // 0: what the container may use
+  bool timings = false;         // print the time of each pass at the end
+  double wall_time = 0;         // s; 0: no limit
   std::optional<double> until;  // s, resume only: stop (with a checkpoint) at this simulated time
   std::vector<std::string> command_line;
 };

@@ -13,9 +13,12 @@ namespace wedge {
 std::string duration_text(double seconds) {
   char text[48];
   const long s = std::lround(seconds);
-  if (s < 100) std::snprintf(text, sizeof text, "%ld s", s);
-  else if (s < 6000) std::snprintf(text, sizeof text, "%ld min", (s + 30) / 60);
-  else std::snprintf(text, sizeof text, "%ld h %02ld min", s / 3600, s % 3600 / 60);
+  if (s < 100)
+    std::snprintf(text, sizeof text, "%ld s", s);
+  else if (s < 6000)
+    std::snprintf(text, sizeof text, "%ld min", (s + 30) / 60);
+  else
+    std::snprintf(text, sizeof text, "%ld h %02ld min", s / 3600, s % 3600 / 60);
   return text;
 }
 
@@ -25,10 +28,11 @@ void ProgressLine::show(const Progress& p, double rate, double now) {
   if (now - last_ < (terminal_ ? 0.5 : 30.0)) return;
   last_ = now;
   char text[256];
-  std::snprintf(text, sizeof text, "%s (%d/%d)  t %.4f s  step %lld  %lld grains, %lld out  %.1f M particle-steps/s%s%s", p.stage.c_str(),
-                p.stage_number, p.stage_count, p.time, static_cast<long long>(p.step), static_cast<long long>(p.grains),
-                static_cast<long long>(p.discharged), 1e-6 * rate, p.eta_seconds >= 0 ? "  ETA " : "",
-                p.eta_seconds >= 0 ? duration_text(p.eta_seconds).c_str() : "");
+  std::snprintf(text, sizeof text,
+                "%s (%d/%d)  t %.4f s  step %lld  %lld grains, %lld out  %.1f M particle-steps/s%s%s",
+                p.stage.c_str(), p.stage_number, p.stage_count, p.time, static_cast<long long>(p.step),
+                static_cast<long long>(p.grains), static_cast<long long>(p.discharged), 1e-6 * rate,
+                p.eta_seconds >= 0 ? "  ETA " : "", p.eta_seconds >= 0 ? duration_text(p.eta_seconds).c_str() : "");
   std::string line = text;
   if (!terminal_) {
     std::fprintf(stderr, "%s\n", line.c_str());

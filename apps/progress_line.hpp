@@ -9,14 +9,14 @@ struct Progress;
 
 /// On a terminal one line that is overwritten; elsewhere a line every 30 s.
 class ProgressLine {
- public:
+public:
   ProgressLine();
   /// `rate` [particle-steps/s] of this session; `now` [s] of this session's wall time.
   void show(const Progress& progress, double rate, double now);
   /// A line that stays.
   void note(const std::string& text);
 
- private:
+private:
   bool terminal_;
   double last_ = -1e9;
   std::size_t width_ = 0;  // of the line on the screen

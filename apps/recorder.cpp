@@ -21,9 +21,12 @@ constexpr double series_per_second = 200;  // rows per simulated second when the
 
 std::vector<SeriesColumn> energy_columns(bool budget) {
   std::vector<SeriesColumn> c{{"time", "s"}, {"step", ""}};
-  for (const char* name : {"kinetic", "rotational", "elastic_normal", "elastic_tangential", "potential", "carried_out"}) c.push_back({name, "J"});
+  for (const char* name :
+       {"kinetic", "rotational", "elastic_normal", "elastic_tangential", "potential", "carried_out"})
+    c.push_back({name, "J"});
   if (budget)
-    for (const char* name : {"normal_damping", "tangential_damping", "sliding", "rolling", "axis", "wall_work", "history_coupling", "residual"})
+    for (const char* name : {"normal_damping", "tangential_damping", "sliding", "rolling", "axis", "wall_work",
+                             "history_coupling", "residual"})
       c.push_back({name, "J"});
   return c;
 }
@@ -47,20 +50,34 @@ void make_folder(const std::string& path) {
 
 Recorder::Recorder(const RunFolder& folder, const Scene& scene, const Vessel& vessel, const RunMemory& memory,
                    std::optional<double> resume_time)
-    : folder_(folder), scene_(scene), series_every_(scene.output.series_every > 0 ? scene.output.series_every : 1 / series_per_second) {
-  for (const std::string& path : {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()}) make_folder(path);
+    : folder_(folder),
+      scene_(scene),
+      series_every_(scene.output.series_every > 0 ? scene.output.series_every : 1 / series_per_second) {
+  for (const std::string& path :
+       {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()})
+    make_folder(path);
   open_series(vessel, resume_time);
   if (resume_time) forget_later_frames(memory);
 }
 
 void Recorder::open_series(const Vessel& vessel, std::optional<double> resume_time) {
   const auto open = [&](const char* name, const std::vector<SeriesColumn>& columns) {
-    return resume_time ? SeriesFile::reopen(folder_.series(name), columns, *resume_time) : SeriesFile::create(folder_.series(name), columns);
+    return resume_time ? SeriesFile::reopen(folder_.series(name), columns, *resume_time)
+                       : SeriesFile::create(folder_.series(name), columns);
   };
   energies_.emplace(open("energies", energy_columns(scene_.output.energy_budget)));
   ledger_.emplace(open("ledger", {{"time", "s"}, {"in", ""}, {"inside", ""}, {"out", ""}}));
-  discharge_.emplace(open("discharge", {{"time", "s"}, {"crossed", "s"}, {"id", ""}, {"layer", ""}, {"x", "m"}, {"y", "m"}, {"z", "m"},
-                                        {"vx", "m/s"}, {"vy", "m/s"}, {"vz", "m/s"}, {"mass", "kg"}}));
+  discharge_.emplace(open("discharge", {{"time", "s"},
+                                        {"crossed", "s"},
+                                        {"id", ""},
+                                        {"layer", ""},
+                                        {"x", "m"},
+                                        {"y", "m"},
+                                        {"z", "m"},
+                                        {"vx", "m/s"},
+                                        {"vy", "m/s"},
+                                        {"vz", "m/s"},
+                                        {"mass", "kg"}}));
   walls_.emplace(open("walls", wall_columns(vessel)));
 }
 
@@ -87,7 +104,8 @@ void Recorder::record_due(State& state, const TimeStep& step, RunMemory& memory)
     frame = true;
   }
   const auto& at = scene_.output.frames_at;
-  while (memory.listed_frames < static_cast<std::int64_t>(at.size()) && now >= at[static_cast<std::size_t>(memory.listed_frames)]) {
+  while (memory.listed_frames < static_cast<std::int64_t>(at.size()) &&
+         now >= at[static_cast<std::size_t>(memory.listed_frames)]) {
     ++memory.listed_frames;
     frame = true;
   }
@@ -97,13 +115,17 @@ void Recorder::record_due(State& state, const TimeStep& step, RunMemory& memory)
 void Recorder::record_series(const State& state, const TimeStep& step, const RunMemory& memory) {
   const Energies e = step.energies(state);
   const EnergyLedger& l = state.energy;
-  std::vector<double> row{state.time, static_cast<double>(state.step), e.kinetic, e.rotational, e.elastic_normal, e.elastic_tangential, e.potential, l.carried_out};
+  std::vector<double> row{state.time,       static_cast<double>(state.step),
+                          e.kinetic,        e.rotational,
+                          e.elastic_normal, e.elastic_tangential,
+                          e.potential,      l.carried_out};
   if (scene_.output.energy_budget)
     for (const double x : {l.normal_damping, l.tangential_damping, l.sliding, l.rolling, l.axis, l.wall_work,
                            step.history_coupling(state, memory.begin, e), step.residual(state, memory.begin, e)})
       row.push_back(x);
   energies_->append(row);
-  ledger_->append({state.time, static_cast<double>(state.put_in), static_cast<double>(state.particles.count()), static_cast<double>(state.taken_out)});
+  ledger_->append({state.time, static_cast<double>(state.put_in), static_cast<double>(state.particles.count()),
+                   static_cast<double>(state.taken_out)});
   row = {state.time};
   for (const WallLoad& load : wall_loads(state))
     for (const Vec3& v : {load.force, load.torque}) row.insert(row.end(), {v.x, v.y, v.z});
@@ -111,10 +133,11 @@ void Recorder::record_series(const State& state, const TimeStep& step, const Run
 }
 
 void Recorder::record_departures(State& state) {
-  std::sort(state.departures.begin(), state.departures.end(), [](const Departure& a, const Departure& b) { return a.id < b.id; });
+  std::sort(state.departures.begin(), state.departures.end(),
+            [](const Departure& a, const Departure& b) { return a.id < b.id; });
   for (const Departure& d : state.departures)
-    discharge_->append({state.time, d.time, static_cast<double>(d.id), static_cast<double>(d.layer), d.position.x, d.position.y, d.position.z,
-                        d.velocity.x, d.velocity.y, d.velocity.z, d.mass});
+    discharge_->append({state.time, d.time, static_cast<double>(d.id), static_cast<double>(d.layer), d.position.x,
+                        d.position.y, d.position.z, d.velocity.x, d.velocity.y, d.velocity.z, d.mass});
   state.departures.clear();
 }
 

@@ -15,9 +15,9 @@
 namespace wedge {
 
 class Recorder {
- public:
-  /// Makes the folders and empty series of a new run, or cuts those of an old one back to `resume_time` [s] and to the frames in
-  /// `memory`. Throws FileError.
+public:
+  /// Makes the folders and empty series of a new run, or cuts those of an old one back to `resume_time` [s] and to
+  /// the frames in `memory`. Throws FileError.
   Recorder(const RunFolder& folder, const Scene& scene, const Vessel& vessel, const RunMemory& memory,
            std::optional<double> resume_time);
 
@@ -38,7 +38,7 @@ class Recorder {
   std::vector<double> crossings_since(double from) const;
   double series_every() const { return series_every_; }
 
- private:
+private:
   void open_series(const Vessel& vessel, std::optional<double> resume_time);
   void forget_later_frames(const RunMemory& memory);
   void list_frames(const RunMemory& memory) const;

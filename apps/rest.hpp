@@ -7,7 +7,8 @@
 
 namespace wedge {
 
-/// The scene's criterion with its defaults filled in: speed 1e-3 sqrt(g d), duration 5 sqrt(d/g), d [m] the mean diameter.
+/// The scene's criterion with its defaults filled in: speed 1e-3 sqrt(g d), duration 5 sqrt(d/g), d [m] the mean
+/// diameter.
 inline RestCriterion rest_criterion(const Scene& scene, double mean_diameter) {
   RestCriterion rest = scene.rest;
   const double g = scene.domain.gravity.norm();

@@ -8,7 +8,7 @@
 namespace wedge {
 
 class RunFolder {
- public:
+public:
   explicit RunFolder(std::string path) : path_(std::move(path)) {}
 
   const std::string& path() const { return path_; }
@@ -19,7 +19,9 @@ class RunFolder {
   std::string progress() const { return path_ + "/progress.json"; }
   std::string series(const std::string& name) const { return path_ + "/series/" + name + ".csv"; }
   std::string frames() const { return path_ + "/frames"; }
-  std::string frame(const char* kind, std::int64_t number) const { return frames() + "/" + frame_name(kind, number); }
+  std::string frame(const char* kind, std::int64_t number) const {
+    return frames() + "/" + frame_name(kind, number);
+  }
   static std::string frame_name(const char* kind, std::int64_t number) {
     char digits[32];
     std::snprintf(digits, sizeof digits, "_%06lld.hdf", static_cast<long long>(number));
@@ -32,7 +34,7 @@ class RunFolder {
   std::string beds() const { return results() + "/beds.csv"; }
   std::string slice(const std::string& stage) const { return results() + "/slice_" + stage + ".svg"; }
 
- private:
+private:
   std::string path_;
 };
 

@@ -42,14 +42,17 @@ double number(const std::string& text, const std::string& key, const std::string
 
 std::vector<std::pair<std::string, std::string>> RunMemory::to_text() const {
   std::vector<std::pair<std::string, std::string>> text;
-  for_each_number(*this, [&](const char* name, const auto& member) { text.emplace_back(name, number_text(static_cast<double>(member))); });
+  for_each_number(*this, [&](const char* name, const auto& member) {
+    text.emplace_back(name, number_text(static_cast<double>(member)));
+  });
   std::string times;
   for (const double t : frame_times) times += number_text(t) + " ";
   text.emplace_back("frame_times", times);
   return text;
 }
 
-RunMemory RunMemory::from_text(const std::vector<std::pair<std::string, std::string>>& text, const std::string& path) {
+RunMemory RunMemory::from_text(const std::vector<std::pair<std::string, std::string>>& text,
+                               const std::string& path) {
   const auto find = [&](const std::string& key) -> const std::string& {
     for (const auto& [name, value] : text)
       if (name == key) return value;

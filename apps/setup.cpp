@@ -39,7 +39,9 @@ void read_grains(State& state, const Scene& scene, const StateFile& file) {
     }
     const bool at_axis = std::hypot(x.x, x.y) < 2 * p.radius[s] * axis_resolution;
     if (at_axis && scene.domain.kind == DomainKind::sector && scene.domain.axis == AxisRule::images) {
-      text << file.path << ": grain " << p.id[s] << " lies on the axis, where axis = \"images\" gives it copies of itself at its own place. Move it, or use axis = \"clamp\".";
+      text << file.path << ": grain " << p.id[s]
+           << " lies on the axis, where axis = \"images\" gives it copies of itself at its own place. Move it, or "
+              "use axis = \"clamp\".";
       throw SceneError(text.str());
     }
   }
@@ -51,7 +53,8 @@ void read_grains(State& state, const Scene& scene, const StateFile& file) {
 void take_over(State& state, const Scene& scene) {
   std::string file = scene.start_from;
   if (std::filesystem::is_directory(file)) {
-    const std::string folder = std::filesystem::is_directory(RunFolder(file).checkpoints()) ? RunFolder(file).checkpoints() : file;
+    const std::string folder =
+        std::filesystem::is_directory(RunFolder(file).checkpoints()) ? RunFolder(file).checkpoints() : file;
     const auto newest = newest_valid_checkpoint(folder);
     if (!newest) throw FileError(folder + ": holds no valid checkpoint to start from");
     file = *newest;
@@ -102,7 +105,9 @@ double stage_time_step(const Scene& scene, const State& state, const Stage& stag
   if (scene.contact.law == ContactLaw::linear) return chosen_time_step(scene);
   double shortest = std::numeric_limits<double>::infinity();  // the smallest grain really there decides
   for (std::size_t i = 0; i < static_cast<std::size_t>(state.particles.count()); ++i)
-    shortest = std::min(shortest, rayleigh_time(state.particles.radius[i], scene.materials[static_cast<std::size_t>(state.particles.material[i])]));
+    shortest =
+        std::min(shortest, rayleigh_time(state.particles.radius[i],
+                                         scene.materials[static_cast<std::size_t>(state.particles.material[i])]));
   return std::isfinite(shortest) ? 0.1 * shortest : chosen_time_step(scene);
 }
 

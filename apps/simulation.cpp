@@ -32,7 +32,8 @@ Simulation Simulation::begin(Scene scene, const RunFolder& folder) {
   s.state_ = std::make_unique<State>(make_start(*s.scene_));
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
   // A bed taken over from another run brings its forces along; the first step makes its list anew.
-  if (s.scene_->start_from.empty()) s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
+  if (s.scene_->start_from.empty())
+    s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
   s.memory_.begin = s.step_->energies(*s.state_);
   s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, std::nullopt);
   return s;
@@ -118,8 +119,8 @@ void Simulation::begin_stage() {
   memory_.quiet_since = -1;
   memory_.stage_wall_seconds = 0;
   std::ostringstream text;
-  text << "stage " << stage().name << " begins at " << state_->time << " s with " << state_->particles.count() << " grains, step "
-       << dt_ << " s";
+  text << "stage " << stage().name << " begins at " << state_->time << " s with " << state_->particles.count()
+       << " grains, step " << dt_ << " s";
   log(text.str());
   line_.note(text.str());
 }
@@ -130,8 +131,8 @@ void Simulation::end_stage() {
   results_.push_back(measure_bed(*state_, *scene_, stage().name, discharge_rate(), memory_.stage_wall_seconds));
   write_bed_table(folder_.beds(), results_);
   std::ostringstream text;
-  text << stage().name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds) << " of wall time: "
-       << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
+  text << stage().name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds)
+       << " of wall time: " << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
   write_slice_svg(folder_.slice(stage().name), *state_, *scene_, stage().name);
   log("stage " + text.str());
   line_.note("stage " + text.str());
@@ -144,7 +145,8 @@ bool Simulation::stage_is_over() {
   if (stage().at_most > 0 && in_stage >= stage().at_most - 0.5 * dt_) return true;
   if (const auto* time = std::get_if<UntilTime>(&stage().until)) return in_stage >= time->duration - 0.5 * dt_;
   if (std::holds_alternative<UntilEmpty>(stage().until)) return state_->particles.count() == 0;
-  if (const auto* out = std::get_if<UntilDischarged>(&stage().until)) return state_->taken_out - memory_.stage_start_out >= out->count;
+  if (const auto* out = std::get_if<UntilDischarged>(&stage().until))
+    return state_->taken_out - memory_.stage_start_out >= out->count;
   return at_rest();
 }
 
@@ -164,7 +166,8 @@ bool Simulation::at_rest() {
   return state_->time - memory_.quiet_since >= rest_.duration;
 }
 
-/// Grains per second through the outlet [1/s], of this domain: between the moments when 10 % and 90 % of the stage's grains had crossed.
+/// Grains per second through the outlet [1/s], of this domain: between the moments when 10 % and 90 % of the
+/// stage's grains had crossed.
 double Simulation::discharge_rate() const {
   const std::vector<double> t = recorder_->crossings_since(memory_.stage_start);
   if (t.size() < 20) return 0;
@@ -199,7 +202,8 @@ double Simulation::eta() const {
   for (auto n = static_cast<std::size_t>(memory_.stage); n < scene_->stages.size(); ++n) {
     const auto* time = std::get_if<UntilTime>(&scene_->stages[n].until);
     if (!time) return -1;
-    left += time->duration - (n == static_cast<std::size_t>(memory_.stage) ? state_->time - memory_.stage_start : 0);
+    left +=
+        time->duration - (n == static_cast<std::size_t>(memory_.stage) ? state_->time - memory_.stage_start : 0);
   }
   return left * spent / done;
 }

@@ -27,22 +27,23 @@ struct RunLimits {
 };
 
 class Simulation {
- public:
+public:
   /// A new run into an empty or missing folder.
   static Simulation begin(Scene scene, const RunFolder& folder);
   /// The run in `folder` from its newest valid checkpoint. `scene` is that of the folder.
   static Simulation resume(Scene scene, const RunFolder& folder);
 
-  /// Runs until the last stage is done or a limit or a signal says stop; leaves a checkpoint in any case but a physics
-  /// breakdown, which throws PhysicsError after a crash frame was written.
+  /// Runs until the last stage is done or a limit or a signal says stop; leaves a checkpoint in any case but a
+  /// physics breakdown, which throws PhysicsError after a crash frame was written.
   RunEnd run(const RunLimits& limits);
 
   const State& state() const { return *state_; }
   Stopwatch& stopwatch() { return step_->stopwatch(); }
   const std::vector<StageResult>& results() const { return results_; }
 
- private:
-  Simulation(Scene scene, const RunFolder& folder) : scene_(std::make_unique<Scene>(std::move(scene))), folder_(folder) {}
+private:
+  Simulation(Scene scene, const RunFolder& folder)
+      : scene_(std::make_unique<Scene>(std::move(scene))), folder_(folder) {}
 
   RunEnd run_stages(const RunLimits& limits);
   std::optional<RunEnd> run_stage(const RunLimits& limits);

@@ -8,20 +8,20 @@
 namespace wedge {
 
 /// Half list of near pairs. Row k is the pair of grain first[k] and slot second[k] (a grain or an image). The grain
-/// with the smaller id is `first`, so a pair is stored once, seam pairs included, and a history never changes sides.
-/// A row's identity is (id of first, partner_id, turn); `history` and `normal` are in the frame of `first`.
+/// with the smaller id is `first`, so a pair is stored once, seam pairs included, and a history never changes
+/// sides. A row's identity is (id of first, partner_id, turn); `history` and `normal` are in the frame of `first`.
 /// Rows of one grain are consecutive: those of grain i are row_begin[i] .. row_begin[i+1]-1.
 struct ContactTable {
-  Array<Index> row_begin;           // count()+1 entries
+  Array<Index> row_begin;  // count()+1 entries
   Array<Index> first, second;
-  Array<std::int32_t> partner_id;   // id of the grain that `second` is or copies
-  Array<std::int32_t> turn;         // at which the partner is seen from `first`
-  Vec3Array history;                // m, tangential displacement (see kernels/README.md for its half-step part)
-  Vec3Array normal;                 // unit vector first -> second at the last force step
+  Array<std::int32_t> partner_id;  // id of the grain that `second` is or copies
+  Array<std::int32_t> turn;        // at which the partner is seen from `first`
+  Vec3Array history;               // m, tangential displacement (see kernels/README.md for its half-step part)
+  Vec3Array normal;                // unit vector first -> second at the last force step
 
-  // Written by each force step, row by row: eight numbers a row, so that a grain that sums its rows reads one cache line of
-  // each. In order: force on `first` [N] (3); n x f_t [N] (3), which times a lever arm is the torque on either grain;
-  // half of the overlap [m], lever arm = radius - half_overlap; mu_r |f_n| [N m].
+  // Written by each force step, row by row: eight numbers a row, so that a grain that sums its rows reads one cache
+  // line of each. In order: force on `first` [N] (3); n x f_t [N] (3), which times a lever arm is the torque on
+  // either grain; half of the overlap [m], lever arm = radius - half_overlap; mu_r |f_n| [N m].
   static constexpr std::size_t outcome_size = 8;
   Array<double> outcome;
   Vec3 force(std::size_t row) const { return triple(row, 0); }
@@ -29,8 +29,8 @@ struct ContactTable {
   double half_overlap(std::size_t row) const { return outcome[outcome_size * row + 6]; }
   double rolling_cap(std::size_t row) const { return outcome[outcome_size * row + 7]; }
 
-  // The rows in which a slot is `second`: incoming[incoming_begin[s] .. incoming_begin[s+1]-1], ascending. A contact
-  // of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again.
+  // The rows in which a slot is `second`: incoming[incoming_begin[s] .. incoming_begin[s+1]-1], ascending. A
+  // contact of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again.
   Array<Index> incoming_begin, incoming;
 
   Index rows() const { return static_cast<Index>(first.size()); }
@@ -55,7 +55,7 @@ struct ContactTable {
     outcome.resize(outcome_size * static_cast<std::size_t>(rows));
   }
 
- private:
+private:
   Vec3 triple(std::size_t row, std::size_t first_number) const {
     const double* r = outcome.data() + outcome_size * row + first_number;
     return {r[0], r[1], r[2]};
@@ -65,14 +65,14 @@ struct ContactTable {
 /// Near pairs of grains and wall features (see vessel.hpp). Rows of one grain are consecutive; grains ascend.
 /// Grain grain[g] has the rows begin[g] .. begin[g+1]-1.
 struct WallContactTable {
-  Array<Index> grain, begin;        // `begin` has one entry more than `grain`
-  Array<std::int32_t> feature;      // which segment, edge or plane
-  Array<std::int32_t> touching;     // 1 while in contact
-  Vec3Array history;                // m
-  Vec3Array normal;                 // unit vector grain -> wall
-  Vec3Array force;                  // N, on the grain
-  Vec3Array torque;                 // N m, on the grain
-  Array<double> overlap;            // m
+  Array<Index> grain, begin;     // `begin` has one entry more than `grain`
+  Array<std::int32_t> feature;   // which segment, edge or plane
+  Array<std::int32_t> touching;  // 1 while in contact
+  Vec3Array history;             // m
+  Vec3Array normal;              // unit vector grain -> wall
+  Vec3Array force;               // N, on the grain
+  Vec3Array torque;              // N m, on the grain
+  Array<double> overlap;         // m
 
   Index rows() const { return static_cast<Index>(feature.size()); }
 

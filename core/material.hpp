@@ -19,10 +19,10 @@ struct Material {
 
 /// Contact parameters of a pair of materials. Which of them a law uses, kernels/README.md says.
 struct Interaction {
-  double sliding = 0;            // sliding friction coefficient mu_s
-  double rolling = 0;            // rolling friction mu_r, a LENGTH [m]
-  double damping_normal = 0;     // damping ratio c_n (1 is critical)
-  double damping_tangential = 0; // damping ratio c_t
+  double sliding = 0;                 // sliding friction coefficient mu_s
+  double rolling = 0;                 // rolling friction mu_r, a LENGTH [m]
+  double damping_normal = 0;          // damping ratio c_n (1 is critical)
+  double damping_tangential = 0;      // damping ratio c_t
   std::optional<double> restitution;  // when given, both damping ratios follow from it
   bool given = false;                 // false: the scene says nothing about this pair
 };
@@ -30,7 +30,7 @@ struct Interaction {
 /// A table over unordered pairs: (a, b) and (b, a) are one entry by storage (half a matrix).
 template <class T>
 class PairTable {
- public:
+public:
   PairTable() = default;
   explicit PairTable(int kinds) : kinds_(kinds), entries_(static_cast<std::size_t>(kinds * (kinds + 1) / 2)) {}
 
@@ -41,7 +41,7 @@ class PairTable {
   const T& operator()(int a, int b) const { return entries_[static_cast<std::size_t>(slot(a, b))]; }
   const std::vector<T>& entries() const { return entries_; }
 
- private:
+private:
   int kinds_ = 0;
   std::vector<T> entries_;
 };

@@ -52,8 +52,7 @@ void for_each_block(Index blocks, Body&& body) {
 /// Calls body(begin, end) for each block of 0 .. n-1 in parallel. Pre: as for_each_block.
 template <class Body>
 void for_blocks(Index n, Body&& body) {
-  for_each_block(block_count(n),
-                 [&](Index b) { body(b * block_size, std::min<Index>(n, (b + 1) * block_size)); });
+  for_each_block(block_count(n), [&](Index b) { body(b * block_size, std::min<Index>(n, (b + 1) * block_size)); });
 }
 
 /// Calls body(i) for i = 0 .. n-1 in parallel. Pre: as for_each_block.

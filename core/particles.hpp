@@ -33,7 +33,8 @@ struct Particles {
   Array<std::int32_t> material;
   Array<std::int32_t> id;     // fixed for the whole run, unique
   Array<std::int32_t> layer;  // horizontal layer at the start, for tracing the flow
-  Array<std::int32_t> turns;  // faces crossed: the unrolled position is the position turned by `turns` sector angles
+  Array<std::int32_t>
+      turns;  // faces crossed: the unrolled position is the position turned by `turns` sector angles
 
   // What contacts see during a force step: velocities predicted to its time, for grains and images. Not state.
   Vec3Array velocity_seen;
@@ -64,7 +65,8 @@ struct Particles {
     visit(FieldInfo{"reference_x", "m", "position when the neighbour list was made"}, p.reference.x);
     visit(FieldInfo{"reference_y", "m", "position when the neighbour list was made"}, p.reference.y);
     visit(FieldInfo{"reference_z", "m", "position when the neighbour list was made"}, p.reference.z);
-    visit(FieldInfo{"list_margin", "m", "way from the reference position after which the list is stale"}, p.list_margin);
+    visit(FieldInfo{"list_margin", "m", "way from the reference position after which the list is stale"},
+          p.list_margin);
     visit(FieldInfo{"radius", "m", "radius"}, p.radius);
     visit(FieldInfo{"mass", "kg", "mass"}, p.mass);
     visit(FieldInfo{"material", "", "index of the material in the scene"}, p.material);

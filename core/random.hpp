@@ -23,14 +23,15 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
 
 /// A stream of uniform numbers that remembers only how many it gave.
 class RandomStream {
- public:
+public:
   RandomStream(std::uint64_t seed, std::uint32_t stream, std::uint64_t given = 0)
       : seed_(seed), stream_(stream), given_(given) {}
 
   /// Next number, uniform in [0, 1), 53 bits.
   double uniform() {
-    const auto b = philox({static_cast<std::uint32_t>(given_), static_cast<std::uint32_t>(given_ >> 32), stream_, 0},
-                          {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+    const auto b =
+        philox({static_cast<std::uint32_t>(given_), static_cast<std::uint32_t>(given_ >> 32), stream_, 0},
+               {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
     ++given_;
     const std::uint64_t bits = (std::uint64_t{b[0]} << 32 | b[1]) >> 11;
     return static_cast<double>(bits) * 0x1p-53;
@@ -38,7 +39,7 @@ class RandomStream {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   std::uint64_t given() const { return given_; }
 
- private:
+private:
   std::uint64_t seed_;
   std::uint32_t stream_;
   std::uint64_t given_;

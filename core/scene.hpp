@@ -21,15 +21,16 @@ enum class AxisRule { clamp, images };
 
 struct Domain {
   DomainKind kind = DomainKind::full;
-  int order = 1;           // sector: 360 degrees / angle
-  double slot_width = 0;   // m, slot only, along y
+  int order = 1;          // sector: 360 degrees / angle
+  double slot_width = 0;  // m, slot only, along y
   Sides sides = Sides::periodic;
   AxisRule axis = AxisRule::clamp;
-  Eigen::Vector3d gravity{0, 0, -9.81};   // m/s2
-  std::optional<double> outlet_height;    // m: a grain whose centre falls below counts as discharged
+  Eigen::Vector3d gravity{0, 0, -9.81};  // m/s2
+  std::optional<double> outlet_height;   // m: a grain whose centre falls below counts as discharged
 };
 
-/// A wall: a polyline in the (r, z) half plane turned about z, or, in a slot, in the (x, z) plane drawn out along y.
+/// A wall: a polyline in the (r, z) half plane turned about z, or, in a slot, in the (x, z) plane drawn out along
+/// y.
 struct WallDescription {
   std::string name;
   std::vector<Eigen::Vector2d> profile;  // m, at least two points
@@ -54,8 +55,8 @@ struct ContactModel {
 };
 
 struct SizeClass {
-  double diameter = 0;   // m
-  double fraction = 1;   // by number
+  double diameter = 0;  // m
+  double fraction = 1;  // by number
   int material = 0;
 };
 struct UniformSizes {
@@ -63,8 +64,8 @@ struct UniformSizes {
   int material = 0;
 };
 struct LognormalSizes {
-  double median = 0;              // diameter, m
-  double sigma = 0;               // standard deviation of ln(diameter)
+  double median = 0;                 // diameter, m
+  double sigma = 0;                  // standard deviation of ln(diameter)
   double smallest = 0, largest = 0;  // cut, m
   int material = 0;
 };
@@ -87,21 +88,25 @@ struct Source {
   std::uint64_t seed = 1;
 };
 
-struct UntilTime { double duration = 0; };        // s, since the stage began
-struct UntilAtRest {};                            // see kernels/README.md, "At rest"
-struct UntilEmpty {};                             // no grain is left
-struct UntilDischarged { std::int64_t count = 0; };  // grains out since the stage began, in this domain
+struct UntilTime {
+  double duration = 0;
+};                      // s, since the stage began
+struct UntilAtRest {};  // see kernels/README.md, "At rest"
+struct UntilEmpty {};   // no grain is left
+struct UntilDischarged {
+  std::int64_t count = 0;
+};  // grains out since the stage began, in this domain
 
 struct Stage {
   std::string name;
   std::vector<std::string> remove, add;  // walls
   std::variant<UntilTime, UntilAtRest, UntilEmpty, UntilDischarged> until;
-  double at_most = 0;              // s: stop the stage after this time in any case; 0: no bound
-  std::optional<double> time_step; // s
+  double at_most = 0;               // s: stop the stage after this time in any case; 0: no bound
+  std::optional<double> time_step;  // s
 };
 
-/// At rest: no grain was discharged and the mean kinetic energy per grain, translation and rotation, stayed below that of
-/// a grain moving at `speed` during `duration`.
+/// At rest: no grain was discharged and the mean kinetic energy per grain, translation and rotation, stayed below
+/// that of a grain moving at `speed` during `duration`.
 struct RestCriterion {
   double speed = 0;     // m/s; 0: 1e-3 sqrt(|g| d)
   double duration = 0;  // s;   0: 5 sqrt(d / |g|)
@@ -110,22 +115,22 @@ struct RestCriterion {
 enum class FramePrecision { single_precision, double_precision };
 
 struct Output {
-  double frames_every = 0;         // s of simulated time; 0: only at stage ends
-  bool contacts = true;            // write a contacts frame with each frame
-  std::vector<double> frames_at;   // s of simulated time
+  double frames_every = 0;        // s of simulated time; 0: only at stage ends
+  bool contacts = true;           // write a contacts frame with each frame
+  std::vector<double> frames_at;  // s of simulated time
   FramePrecision precision = FramePrecision::single_precision;
-  double series_every = 0;         // s; 0: 200 rows per simulated second
-  double checkpoint_every = 600;   // s of wall time
-  bool energy_budget = true;       // book dissipation step by step, so that energies.csv has a residual
+  double series_every = 0;        // s; 0: 200 rows per simulated second
+  double checkpoint_every = 600;  // s of wall time
+  bool energy_budget = true;      // book dissipation step by step, so that energies.csv has a residual
 };
 
 struct RunOptions {
-  double skin = 0;   // m; 0: chosen
-  int threads = 0;   // 0: what the container may use
+  double skin = 0;  // m; 0: chosen
+  int threads = 0;  // 0: what the container may use
 };
 
 struct Scene {
-  std::string text;  // the TOML text with --set applied to it listed below
+  std::string text;                    // the TOML text with --set applied to it listed below
   std::vector<std::string> overrides;  // key=value
   Domain domain;
   std::vector<WallDescription> walls;

@@ -16,15 +16,15 @@ namespace wedge {
 /// Balance: kinetic + rotational + elastic + potential now = the same at the start + carried_in - carried_out
 /// + wall_work + history_coupling - the dissipated ones + residual.
 struct EnergyLedger {
-  double normal_damping = 0;      // dissipated
-  double tangential_damping = 0;  // dissipated
-  double sliding = 0;             // dissipated
-  double rolling = 0;             // dissipated
-  double axis = 0;                // dissipated by the axis rule `clamp`
-  double tangential_work = 0;     // done against the elastic tangential forces, sliding included
-  double wall_work = 0;           // done by moving walls on the grains
-  double carried_in = 0;          // energy of grains when they entered
-  double carried_out = 0;         // energy of grains, and of their contacts, when they left
+  double normal_damping = 0;              // dissipated
+  double tangential_damping = 0;          // dissipated
+  double sliding = 0;                     // dissipated
+  double rolling = 0;                     // dissipated
+  double axis = 0;                        // dissipated by the axis rule `clamp`
+  double tangential_work = 0;             // done against the elastic tangential forces, sliding included
+  double wall_work = 0;                   // done by moving walls on the grains
+  double carried_in = 0;                  // energy of grains when they entered
+  double carried_out = 0;                 // energy of grains, and of their contacts, when they left
   double elastic_tangential_removed = 0;  // elastic tangential energy of contacts removed with their grain
 
   template <class Self, class Visit>
@@ -60,15 +60,15 @@ struct State {
   WallContactTable wall_contacts;
   EnergyLedger energy;
 
-  double time = 0;             // s
-  std::int64_t step = 0;       // steps done
-  double wall_margin = 0;      // m: how far a moving wall may go before the neighbour list is stale
-  double wall_travel = 0;      // m: how far the fastest wall has gone since the list was made
-  std::int64_t list_builds = 0;  // neighbour lists made so far
-  double mean_diameter = 0;      // m, of the grains at the start
-  bool alike = false;            // all grains at the start had one radius and one material
-  std::int64_t put_in = 0;       // grains put in since the start
-  std::int64_t taken_out = 0;    // grains discharged since the start
+  double time = 0;                    // s
+  std::int64_t step = 0;              // steps done
+  double wall_margin = 0;             // m: how far a moving wall may go before the neighbour list is stale
+  double wall_travel = 0;             // m: how far the fastest wall has gone since the list was made
+  std::int64_t list_builds = 0;       // neighbour lists made so far
+  double mean_diameter = 0;           // m, of the grains at the start
+  bool alike = false;                 // all grains at the start had one radius and one material
+  std::int64_t put_in = 0;            // grains put in since the start
+  std::int64_t taken_out = 0;         // grains discharged since the start
   std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
 };
 

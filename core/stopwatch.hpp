@@ -15,7 +15,7 @@ struct PassTime {
 
 /// Sums of wall time by pass name; keeps nothing but sums.
 class Stopwatch {
- public:
+public:
   template <class Body>
   auto time(const char* pass, Body&& body) {
     const Running running{times_[pass]};
@@ -23,7 +23,7 @@ class Stopwatch {
   }
   const std::map<std::string, PassTime>& times() const { return times_; }
 
- private:
+private:
   struct Running {
     PassTime& sum;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();

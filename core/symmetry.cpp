@@ -10,8 +10,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Cosine and sine of 2 pi k / n, reduced to the first octant with whole numbers, so that multiples of 90 degrees are
-/// exact and cos(-a) = cos(a), sin(-a) = -sin(a), cos(90 - a) = sin(a) hold to the bit.
+/// Cosine and sine of 2 pi k / n, reduced to the first octant with whole numbers, so that multiples of 90 degrees
+/// are exact and cos(-a) = cos(a), sin(-a) = -sin(a), cos(90 - a) = sin(a) hold to the bit.
 void cosine_and_sine(int k, int n, double& cosine, double& sine) {
   const int m = ((k % n) + n) % n;
   const int quadrant = 4 * m / n;
@@ -29,10 +29,22 @@ void cosine_and_sine(int k, int n, double& cosine, double& sine) {
     s = 0;
   }
   switch (quadrant) {
-    case 0: cosine = c; sine = s; break;
-    case 1: cosine = -s; sine = c; break;
-    case 2: cosine = -c; sine = -s; break;
-    default: cosine = s; sine = -c; break;
+    case 0:
+      cosine = c;
+      sine = s;
+      break;
+    case 1:
+      cosine = -s;
+      sine = c;
+      break;
+    case 2:
+      cosine = -c;
+      sine = -s;
+      break;
+    default:
+      cosine = s;
+      sine = -c;
+      break;
   }
 }
 

@@ -9,7 +9,7 @@
 namespace wedge {
 
 class Symmetry {
- public:
+public:
   enum class Kind { none, rotation, translation };
 
   static Symmetry none() { return Symmetry(Kind::none, 1, 0); }
@@ -52,7 +52,7 @@ class Symmetry {
   /// Distance [m] from the copy k of point p (p in the domain) to the domain; 0 when it lies inside.
   double distance_to_domain(Vec3 p, int k) const;
 
- private:
+private:
   Symmetry(Kind kind, int order, double width) : kind_(kind), order_(order), width_(width) {}
   Kind kind_;
   int order_;

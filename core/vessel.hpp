@@ -1,4 +1,5 @@
-// vessel.hpp: the walls as a flat list of features: segments (cylinder, cone, disc, annulus), circular edges, planes.
+// vessel.hpp: the walls as a flat list of features: segments (cylinder, cone, disc, annulus), circular edges,
+// planes.
 #pragma once
 
 #include <string>
@@ -15,25 +16,25 @@ namespace wedge {
 struct WallFeature {
   enum class Kind { segment, edge, plane };
   Kind kind = Kind::segment;
-  int wall = 0;                       // index of the wall it belongs to
-  Eigen::Vector2d start{0, 0};        // m, segment: first end; edge: the point
-  Eigen::Vector2d direction{1, 0};    // segment: unit vector along it
-  double length = 0;                  // m, segment
-  std::vector<int> neighbours;        // features that meet this one: edges of a segment, segments of an edge
-  Vec3 plane_normal;                  // plane through the axis (or y = const): unit vector into the domain
-  double plane_offset = 0;            // m: plane is dot(x, plane_normal) = plane_offset
+  int wall = 0;                     // index of the wall it belongs to
+  Eigen::Vector2d start{0, 0};      // m, segment: first end; edge: the point
+  Eigen::Vector2d direction{1, 0};  // segment: unit vector along it
+  double length = 0;                // m, segment
+  std::vector<int> neighbours;      // features that meet this one: edges of a segment, segments of an edge
+  Vec3 plane_normal;                // plane through the axis (or y = const): unit vector into the domain
+  double plane_offset = 0;          // m: plane is dot(x, plane_normal) = plane_offset
 };
 
 /// Where a wall feature is nearest to a point.
 struct WallProximity {
-  double distance = 0;  // m, from the point to the feature
-  Vec3 normal;          // unit vector from the point to the feature
-  bool minimum = false; // the distance has a local minimum there: a touching grain has a contact
+  double distance = 0;   // m, from the point to the feature
+  Vec3 normal;           // unit vector from the point to the feature
+  bool minimum = false;  // the distance has a local minimum there: a touching grain has a contact
 };
 
 /// The walls of a scene with their state: which are present, how far moving ones have travelled.
 class Vessel {
- public:
+public:
   Vessel() = default;
   /// Pre: every profile has at least two points, neighbours distinct. Side planes come from scene.domain.
   explicit Vessel(const Scene& scene);
@@ -60,7 +61,7 @@ class Vessel {
   bool active(int f) const { return carrier(f) >= 0; }
   WallProximity proximity(int f, Vec3 p) const;
 
- private:
+private:
   void add_profile(int w);
   void add_side_planes(const Domain& domain);
   void join_edges();

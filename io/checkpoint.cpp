@@ -258,7 +258,8 @@ void check_lengths(const State& s, const std::string& path) {
   ContactTable::for_each_field(s.contacts, [&](const FieldInfo&, const auto& field) {
     fit = fit && field.size() == static_cast<std::size_t>(s.contacts.rows());
   });
-  fit = fit && s.contacts.outcome.size() == ContactTable::outcome_size * static_cast<std::size_t>(s.contacts.rows());
+  fit =
+      fit && s.contacts.outcome.size() == ContactTable::outcome_size * static_cast<std::size_t>(s.contacts.rows());
   fit = fit && (s.contacts.row_begin.empty() || s.contacts.row_begin.size() == n + 1);
   WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo&, const auto& field) {
     fit = fit && field.size() == static_cast<std::size_t>(s.wall_contacts.rows());

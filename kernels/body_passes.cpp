@@ -8,13 +8,17 @@
 namespace wedge {
 
 BodyPasses make_body_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
-  std::variant<std::integral_constant<Friction, Friction::none>, std::integral_constant<Friction, Friction::sliding>,
+  std::variant<std::integral_constant<Friction, Friction::none>,
+               std::integral_constant<Friction, Friction::sliding>,
                std::integral_constant<Friction, Friction::rolling>>
       level;
   if (friction == Friction::sliding) level.emplace<1>();
   if (friction == Friction::rolling) level.emplace<2>();
-  std::variant<std::integral_constant<AxisAction, AxisAction::none>, std::integral_constant<AxisAction, AxisAction::clamp>> action;
-  if (state.symmetry.kind() == Symmetry::Kind::rotation && scene.domain.axis == AxisRule::clamp) action.emplace<1>();
+  std::variant<std::integral_constant<AxisAction, AxisAction::none>,
+               std::integral_constant<AxisAction, AxisAction::clamp>>
+      action;
+  if (state.symmetry.kind() == Symmetry::Kind::rotation && scene.domain.axis == AxisRule::clamp)
+    action.emplace<1>();
   std::variant<std::false_type, std::true_type> alike;
   if (uniform && state.particles.count() > 0) alike.emplace<1>();
 
@@ -27,8 +31,10 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
         constexpr bool same = decltype(one_kind)::value;
         const auto bodies = [radius = same ? state.particles.radius[0] : 0.0,
                              mass = same ? state.particles.mass[0] : 0.0](const State& s) {
-          if constexpr (same) return (void)s, UniformBodies{radius, mass};
-          else return GeneralBodies{s.particles.radius.data(), s.particles.mass.data()};
+          if constexpr (same)
+            return (void)s, UniformBodies{radius, mass};
+          else
+            return GeneralBodies{s.particles.radius.data(), s.particles.mass.data()};
         };
         passes.kick_and_drift = [=](State& s, double dt) { return kick_and_drift<need, act>(bodies(s), s, g, dt); };
         passes.kick = [=](State& s, double dt) { kick<need, act>(bodies(s), s, g, dt); };

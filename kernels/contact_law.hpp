@@ -35,7 +35,8 @@ inline constexpr double tiny = 1e-150;
 
 /// Damping ratio (of critical, at the tangent stiffness) that gives restitution e for a Hertz contact that may
 /// pull at separation: sqrt(5/6) beta, beta = -ln e / sqrt(pi^2 + ln^2 e).
-/// Tsuji, Tanaka, Ishida (1992), Powder Technol. 71, 239, in the closed form of Antypov & Elliott (2011), EPL 94, 50004.
+/// Tsuji, Tanaka, Ishida (1992), Powder Technol. 71, 239, in the closed form of Antypov & Elliott (2011), EPL 94,
+/// 50004.
 inline double hertz_damping_ratio(double restitution) {
   const double l = -std::log(restitution);
   return std::sqrt(5.0 / 6.0) * l / std::hypot(3.14159265358979323846, l);

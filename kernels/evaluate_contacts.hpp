@@ -1,4 +1,5 @@
-// evaluate_contacts.hpp: the contact pass: every row of the contact table computes its force and writes its own slot.
+// evaluate_contacts.hpp: the contact pass: every row of the contact table computes its force and writes its own
+// slot.
 #pragma once
 
 #include "core/parallel.hpp"
@@ -58,7 +59,8 @@ struct ContactPassArrays {
   double* outcome;
 };
 
-/// Rows are computed a slab at a time: outcomes wait in columns, for the vector loop, and go to memory as one record a row.
+/// Rows are computed a slab at a time: outcomes wait in columns, for the vector loop, and go to memory as one
+/// record a row.
 inline constexpr Index slab_size = 64;
 struct OutcomeSlab {
   alignas(cache_line) double column[ContactTable::outcome_size][slab_size];
@@ -67,12 +69,23 @@ struct OutcomeSlab {
 inline ContactPassArrays contact_pass_arrays(State& s) {
   const Particles& p = s.particles;
   ContactTable& c = s.contacts;
-  return {p.position.x.data(), p.position.y.data(), p.position.z.data(),
-          p.velocity_seen.x.data(), p.velocity_seen.y.data(), p.velocity_seen.z.data(),
-          p.angular_velocity_seen.x.data(), p.angular_velocity_seen.y.data(), p.angular_velocity_seen.z.data(),
-          c.first.data(), c.second.data(),
-          c.history.x.data(), c.history.y.data(), c.history.z.data(),
-          c.normal.x.data(), c.normal.y.data(), c.normal.z.data(),
+  return {p.position.x.data(),
+          p.position.y.data(),
+          p.position.z.data(),
+          p.velocity_seen.x.data(),
+          p.velocity_seen.y.data(),
+          p.velocity_seen.z.data(),
+          p.angular_velocity_seen.x.data(),
+          p.angular_velocity_seen.y.data(),
+          p.angular_velocity_seen.z.data(),
+          c.first.data(),
+          c.second.data(),
+          c.history.x.data(),
+          c.history.y.data(),
+          c.history.z.data(),
+          c.normal.x.data(),
+          c.normal.y.data(),
+          c.normal.z.data(),
           c.outcome.data()};
 }
 
@@ -80,8 +93,8 @@ inline ContactPassArrays contact_pass_arrays(State& s) {
 /// The displacement grows by the trapezoidal rule: what is stored between steps is delta + (dt/2) v_t, so that the
 /// next half step needs no old velocity (kernels/README.md, "Stored displacement").
 template <class Law, Friction friction, class Mix>
-__attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix, const ContactPassArrays& a, Index k, double dt,
-                                                                   OutcomeSlab& slab, Index row) {
+__attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix, const ContactPassArrays& a,
+                                                                 Index k, double dt, OutcomeSlab& slab, Index row) {
   const Index i = a.first[k], j = a.second[k];
   const auto pair = mix.pair(i, j);
   const Vec3 d{a.x[j] - a.x[i], a.y[j] - a.y[i], a.z[j] - a.z[i]};
@@ -102,7 +115,8 @@ __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix,
     in.approach_velocity = dot(v, n);
     in.tangential_velocity = v - in.approach_velocity * n;
     const Vec3 followed = follow_normal({a.hx[k], a.hy[k], a.hz[k]}, {a.nx[k], a.ny[k], a.nz[k]}, n);
-    in.displacement = spin_about_normal(followed, n, 0.25 * dt * dot(wi + wj, n)) + (0.5 * dt) * in.tangential_velocity;
+    in.displacement =
+        spin_about_normal(followed, n, 0.25 * dt * dot(wi + wj, n)) + (0.5 * dt) * in.tangential_velocity;
   }
 
   const ContactResponse out = Law::respond(pair.coefficients, in);
@@ -130,7 +144,8 @@ __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix,
     losses.tangential_damping = on * dt * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
     losses.sliding = on * out.sliding_loss;
   }
-  if constexpr (friction == Friction::rolling) slab.column[7][row] = on * pair.coefficients.rolling * std::fabs(out.normal);
+  if constexpr (friction == Friction::rolling)
+    slab.column[7][row] = on * pair.coefficients.rolling * std::fabs(out.normal);
   return losses;
 }
 
@@ -141,9 +156,9 @@ inline void store(const OutcomeSlab& slab, Index rows, double* outcome) {
       outcome[ContactTable::outcome_size * static_cast<std::size_t>(row) + c] = slab.column[c][row];
 }
 
-/// Pre: images are fresh, velocity_seen is predicted to the time of the positions; dt [s] is the time since the last
-/// force step (0: forces at the start, no history grows).
-/// Post: each row's force, lever torque, half overlap, rolling cap, history and normal are those of now.
+/// Pre: images are fresh, velocity_seen is predicted to the time of the positions; dt [s] is the time since the
+/// last force step (0: forces at the start, no history grows). Post: each row's force, lever torque, half overlap,
+/// rolling cap, history and normal are those of now.
 template <class Law, Friction friction, bool with_budget, class Mix>
 void evaluate_contacts(const Mix& mix, State& state, double dt) {
   const ContactPassArrays arrays = contact_pass_arrays(state);

@@ -1,4 +1,5 @@
-// evaluate_walls.hpp: the wall pass: each grain near a wall meets the features near it and adds their forces to its own.
+// evaluate_walls.hpp: the wall pass: each grain near a wall meets the features near it and adds their forces to its
+// own.
 #pragma once
 
 #include <sstream>
@@ -26,15 +27,16 @@ struct WallMix {
 
 struct WallLosses {
   ContactLosses contact;
-  double wall_work = 0;   // J, done by moving walls on the grains
-  Index crossed = -1;     // a grain whose centre went through a wall
+  double wall_work = 0;  // J, done by moving walls on the grains
+  Index crossed = -1;    // a grain whose centre went through a wall
 };
 
 /// Rows [begin, end) of the wall contact table as the grain in slot i meets them.
 template <class Law, Friction friction>
 class WallRows {
- public:
-  WallRows(const WallMix<Law>& mix, State& state, double dt) : mix_(mix), state_(state), c_(state.wall_contacts), dt_(dt) {}
+public:
+  WallRows(const WallMix<Law>& mix, State& state, double dt)
+      : mix_(mix), state_(state), c_(state.wall_contacts), dt_(dt) {}
 
   void evaluate(Index i, Index begin, Index end, WallLosses& losses) const {
     for (Index k = begin; k < end; ++k) meet(i, static_cast<std::size_t>(k));
@@ -42,7 +44,7 @@ class WallRows {
     for (Index k = begin; k < end; ++k) respond(i, static_cast<std::size_t>(k), losses);
   }
 
- private:
+private:
   enum Touch : std::int32_t { apart = 0, held = 1, fresh = 2, left = 3 };
 
   /// Is the feature touched now? The transported history waits in its row.
@@ -57,11 +59,14 @@ class WallRows {
     c_.force.set(k, near.normal);  // the new normal, until respond() puts the force there
   }
 
-  /// A contact that is fresh on one feature while the grain leaves the feature next to it is the same contact: it takes the history along.
+  /// A contact that is fresh on one feature while the grain leaves the feature next to it is the same contact: it
+  /// takes the history along.
   void take_over(std::size_t k, Index begin, Index end) const {
     if (c_.touching[k] != fresh) return;
     const auto& neighbours = state_.vessel.feature(c_.feature[k]).neighbours;
-    const auto beside = [&](int a) { return std::find(neighbours.begin(), neighbours.end(), a) != neighbours.end(); };
+    const auto beside = [&](int a) {
+      return std::find(neighbours.begin(), neighbours.end(), a) != neighbours.end();
+    };
     for (Index m = begin; m < end; ++m) {
       const auto o = static_cast<std::size_t>(m);
       if (c_.touching[o] != left || !(beside(c_.feature[o]) || shares_edge(c_.feature[o], c_.feature[k]))) continue;
@@ -82,7 +87,8 @@ class WallRows {
     const Vec3 n = c_.force.get(k), before = c_.normal.get(k);
     c_.normal.set(k, n);
     const bool touches = c_.touching[k] == held || c_.touching[k] == fresh;
-    if (c_.touching[k] == held && dot(n, before) < 0 && state_.vessel.feature(c_.feature[k]).kind != WallFeature::Kind::edge)
+    if (c_.touching[k] == held && dot(n, before) < 0 &&
+        state_.vessel.feature(c_.feature[k]).kind != WallFeature::Kind::edge)
       losses.crossed = i;
     c_.touching[k] = touches ? 1 : 0;
     if (!touches) {
@@ -102,8 +108,9 @@ class WallRows {
     if constexpr (friction != Friction::none) {
       in.tangential_velocity = v - in.approach_velocity * n;
       const Vec3 wall_spin{0, 0, state_.vessel.wall(wall).spin};
-      in.displacement = spin_about_normal(follow_normal(c_.history.get(k), before, n), n, 0.25 * dt_ * dot(w + wall_spin, n)) +
-                        (0.5 * dt_) * in.tangential_velocity;
+      in.displacement =
+          spin_about_normal(follow_normal(c_.history.get(k), before, n), n, 0.25 * dt_ * dot(w + wall_spin, n)) +
+          (0.5 * dt_) * in.tangential_velocity;
     }
     const ContactResponse out = Law::respond(coefficients, in);
     const Vec3 tangential = friction == Friction::none ? Vec3{} : out.tangential;
@@ -118,7 +125,8 @@ class WallRows {
       p.torque.set(s, p.torque.get(s) + torque);
       c_.history.set(k, out.displacement + (0.5 * dt_) * in.tangential_velocity);
       losses.contact.tangential_work -= dt_ * dot(out.elastic_tangential, in.tangential_velocity);
-      losses.contact.tangential_damping += dt_ * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
+      losses.contact.tangential_damping +=
+          dt_ * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
       losses.contact.sliding += out.sliding_loss;
     }
     if constexpr (friction == Friction::rolling) p.rolling_cap[s] += coefficients.rolling * std::fabs(out.normal);
@@ -167,7 +175,8 @@ void evaluate_walls(const WallMix<Law>& mix, State& state, double dt) {
     const Vec3 x = state.particles.position.get(s);
     std::ostringstream text;
     text << "grain " << state.particles.id[s] << " went through a wall at (" << x.x << ", " << x.y << ", " << x.z
-         << ") m in step " << state.step << ". Likely cause: the wall is too soft for the load, or the time step too long.";
+         << ") m in step " << state.step
+         << ". Likely cause: the wall is too soft for the load, or the time step too long.";
     throw PhysicsError(text.str());
   }
 }

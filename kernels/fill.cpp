@@ -20,9 +20,12 @@ struct Body {
   int material;
 };
 
-/// A lognormal number by inversion of its distribution between the cuts (bisection: needs no inverse error function).
+/// A lognormal number by inversion of its distribution between the cuts (bisection: needs no inverse error
+/// function).
 double lognormal_diameter(const LognormalSizes& s, double u) {
-  const auto below = [&](double d) { return 0.5 * std::erfc(-std::log(d / s.median) / (s.sigma * std::sqrt(2.0))); };
+  const auto below = [&](double d) {
+    return 0.5 * std::erfc(-std::log(d / s.median) / (s.sigma * std::sqrt(2.0)));
+  };
   const double target = below(s.smallest) + u * (below(s.largest) - below(s.smallest));
   double low = s.smallest, high = s.largest;
   for (int i = 0; i < 60; ++i) {
@@ -56,7 +59,7 @@ std::vector<Body> draw_bodies(const RandomFill& fill, std::int64_t count, std::u
 
 /// The grains placed so far, in cells, and the question whether one more has room.
 class Packing {
- public:
+public:
   Packing(const State& state, const Scene& scene, const RandomFill& fill, double largest_radius)
       : state_(state), scene_(scene), widest_(largest_radius) {
     const double r = fill.r_high, w = scene.domain.slot_width;
@@ -89,7 +92,7 @@ class Packing {
   }
   const std::vector<Vec3>& places() const { return places_; }
 
- private:
+private:
   bool free_at(Vec3 x, double radius) const {
     const Index column = grid_.column(x.x), row = grid_.row(x.y), level = grid_.level(x.z);
     for (Index l = std::max(0, level - 1); l <= std::min(grid_.nz() - 1, level + 1); ++l)
@@ -114,8 +117,10 @@ class Packing {
 
 /// A place for a grain of this radius, uniform in the region's volume.
 Vec3 draw_place(const Scene& scene, const RandomFill& fill, double radius, RandomStream& random) {
-  const double a = random.uniform(), b = random.uniform(), z = random.uniform(fill.z_low + radius, fill.z_high - radius);
-  const double low = fill.r_low + (fill.r_low > 0 || scene.domain.kind == DomainKind::slot ? radius : 0), high = fill.r_high - radius;
+  const double a = random.uniform(), b = random.uniform(),
+               z = random.uniform(fill.z_low + radius, fill.z_high - radius);
+  const double low = fill.r_low + (fill.r_low > 0 || scene.domain.kind == DomainKind::slot ? radius : 0),
+               high = fill.r_high - radius;
   if (scene.domain.kind == DomainKind::slot) return {low + a * (high - low), b * scene.domain.slot_width, z};
   const double r = std::sqrt(low * low + a * (high * high - low * low)), phi = b * 2 * pi / scene.domain.order;
   return {r * std::cos(phi), r * std::sin(phi), z};
@@ -138,7 +143,8 @@ void complete_grains(Particles& p, const std::vector<Material>& materials, doubl
   for (Vec3Array* field : {&p.force, &p.torque, &p.reference})
     for (Index i = 0; i < p.count(); ++i) field->set(static_cast<std::size_t>(i), {});
   double lowest = 0;
-  for (Index i = 0; i < p.count(); ++i) lowest = i == 0 ? p.position.z[0] : std::min(lowest, p.position.z[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < p.count(); ++i)
+    lowest = i == 0 ? p.position.z[0] : std::min(lowest, p.position.z[static_cast<std::size_t>(i)]);
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
     p.mass[s] = sphere_mass(p.radius[s], materials[static_cast<std::size_t>(p.material[s])].density);
@@ -165,8 +171,9 @@ void fill_at_random(State& state, const Scene& scene, const RandomFill& fill) {
     }
     if (!placed) {
       std::ostringstream text;
-      text << "only " << packing.places().size() << " of " << count << " grains found room in the fill region after "
-           << tries_per_grain << " tries for the next. Make particles.region taller, or particles.count smaller.";
+      text << "only " << packing.places().size() << " of " << count
+           << " grains found room in the fill region after " << tries_per_grain
+           << " tries for the next. Make particles.region taller, or particles.count smaller.";
       throw SceneError(text.str());
     }
   }

@@ -8,8 +8,8 @@ namespace wedge {
 
 /// Grains of a random fill: random sequential addition, larger grains first; no overlap with each other, across
 /// seams, with own copies (axis `images`) or with walls. Places, velocities and sizes follow from the seed alone.
-/// Pre: state.symmetry and state.vessel are made. Post: state.particles holds round(count / order) grains at rest but for
-/// `speed`, all forces zero. Throws SceneError when they do not find room.
+/// Pre: state.symmetry and state.vessel are made. Post: state.particles holds round(count / order) grains at rest
+/// but for `speed`, all forces zero. Throws SceneError when they do not find room.
 void fill_at_random(State& state, const Scene& scene, const RandomFill& fill);
 
 /// Notes in `state` what the grains have in common: mean_diameter and alike. Once, before TimeStep is made.

@@ -32,9 +32,13 @@ struct Found {
 
 /// The search around one grain.
 class PairSearch {
- public:
+public:
   PairSearch(const State& state, const NeighbourScratch& scratch, AxisRule axis)
-      : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()), meets_itself_(axis == AxisRule::images) {}
+      : p_(state.particles),
+        images_(state.images),
+        s_(scratch),
+        n_(state.particles.count()),
+        meets_itself_(axis == AxisRule::images) {}
 
   void around(Index i, Found& found) const {
     const CellGrid& g = s_.grid;
@@ -53,8 +57,9 @@ class PairSearch {
     found.rows_of_grain.push_back(static_cast<Index>(found.second.size() - before));
   }
 
- private:
-  void images_around(Index i, Vec3 x, Index column_low, Index column_high, Index row, Index level, Found& found) const {
+private:
+  void images_around(Index i, Vec3 x, Index column_low, Index column_high, Index row, Index level,
+                     Found& found) const {
     const CellGrid& g = s_.grid;
     for (Index l = std::max(0, level - 1); l <= std::min(g.nz() - 1, level + 1); ++l) {
       for (Index r = std::max(0, row - 1); r <= std::min(g.ny() - 1, row + 1); ++r) {
@@ -64,7 +69,8 @@ class PairSearch {
           const Index owner = images_.owner[at(m)];
           // One side computes a seam pair: the grain with the smaller id; a grain meets each of its own copies
           // k and -k once, at the positive turn.
-          const bool ours = p_.id[at(owner)] > p_.id[at(i)] || (meets_itself_ && owner == i && images_.turn[at(m)] > 0);
+          const bool ours =
+              p_.id[at(owner)] > p_.id[at(i)] || (meets_itself_ && owner == i && images_.turn[at(m)] > 0);
           if (ours) consider(i, owner, n_ + m, x, found);
         }
       }
@@ -119,7 +125,8 @@ void set_aside(const ContactTable& c, NeighbourScratch& s) {
   });
   std::partial_sum(s.old_row_begin.begin(), s.old_row_begin.end(), s.old_row_begin.begin());
   const Index rows = s.old_row_begin.back();
-  for (Array<double>* field : {&s.old_history.x, &s.old_history.y, &s.old_history.z, &s.old_normal.x, &s.old_normal.y, &s.old_normal.z})
+  for (Array<double>* field :
+       {&s.old_history.x, &s.old_history.y, &s.old_history.z, &s.old_normal.x, &s.old_normal.y, &s.old_normal.z})
     resize_with_room(*field, rows);
   resize_with_room(s.old_partner, rows);
   resize_with_room(s.old_turn, rows);
@@ -144,14 +151,15 @@ void report_overlap(const State& state, Index i, Index slot) {
   text << "grains " << p.id[at(i)] << " and " << p.id[at(owner)] << " at (" << x.x << ", " << x.y << ", " << x.z
        << ") m overlap by " << (p.radius[at(i)] + p.radius[at(owner)] - norm(p.position.get(at(slot)) - x))
        << " m in step " << state.step << ": more than " << overlap_limit
-       << " of the smaller radius. Likely cause: grains too soft for their speed, a time step too long, or a start with overlaps.";
+       << " of the smaller radius. Likely cause: grains too soft for their speed, a time step too long, or a start "
+          "with overlaps.";
   throw PhysicsError(text.str());
 }
 
 /// Finds the row of the old list that is the same contact, or -1.
 /// `first_wrap` and `partner_wrap` are the turns by which the two grains were turned since.
-Index old_row(const NeighbourScratch& s, const Symmetry& symmetry, Index old_first, std::int32_t partner, int turn_now,
-              int first_wrap, int partner_wrap) {
+Index old_row(const NeighbourScratch& s, const Symmetry& symmetry, Index old_first, std::int32_t partner,
+              int turn_now, int first_wrap, int partner_wrap) {
   for (Index k = s.old_row_begin[at(old_first)]; k < s.old_row_begin[at(old_first) + 1]; ++k) {
     if (s.old_partner[at(k)] != partner) continue;
     if (symmetry.residue(s.old_turn[at(k)] + first_wrap - partner_wrap) == turn_now) return k;
@@ -176,7 +184,8 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
     c.turn[k] = image ? state.images.turn[at(slot - n)] : 0;
     Vec3 history, normal;
     if (has_old) {
-      const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], c.partner_id[k], c.turn[k], s.wrap[at(i)], s.wrap[at(owner)]);
+      const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], c.partner_id[k], c.turn[k], s.wrap[at(i)],
+                                s.wrap[at(owner)]);
       if (old >= 0) {
         history = state.symmetry.turn_vector(s.old_history.get(at(old)), s.wrap[at(i)]);
         normal = state.symmetry.turn_vector(s.old_normal.get(at(old)), s.wrap[at(i)]);
@@ -194,7 +203,8 @@ void index_incoming(State& state) {
   const auto slots = at(n + state.images.count());
   const int order = state.symmetry.order();
   const auto own_reaction = [&](Index k) {  // a grain and its own copy half a turn away: the reaction is the action
-    return c.second[at(k)] >= n && 2 * c.turn[at(k)] == order && state.images.owner[at(c.second[at(k)] - n)] == c.first[at(k)];
+    return c.second[at(k)] >= n && 2 * c.turn[at(k)] == order &&
+           state.images.owner[at(c.second[at(k)] - n)] == c.first[at(k)];
   };
   c.incoming_begin.assign(slots + 1, 0);
   for (Index k = 0; k < c.rows(); ++k)

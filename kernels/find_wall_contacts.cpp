@@ -82,7 +82,8 @@ void find_wall_contacts(State& state, NeighbourScratch& scratch) {
   c.begin.push_back(rows);
   c.resize(rows);
   for_each(static_cast<Index>(c.grain.size()), [&](Index g) {
-    for (Index k = c.begin[at(g)]; k < c.begin[at(g) + 1]; ++k) carry_history(state, scratch, c.grain[at(g)], at(k));
+    for (Index k = c.begin[at(g)]; k < c.begin[at(g) + 1]; ++k)
+      carry_history(state, scratch, c.grain[at(g)], at(k));
   });
 }
 

@@ -8,18 +8,20 @@ namespace wedge {
 
 struct HertzMindlin {
   struct Coefficients {
-    double young;    // E*, Pa
-    double shear;    // G*, Pa
-    double sliding;  // mu_s
-    double rolling;  // mu_r, m
+    double young;                               // E*, Pa
+    double shear;                               // G*, Pa
+    double sliding;                             // mu_s
+    double rolling;                             // mu_r, m
     double damping_normal, damping_tangential;  // ratios of critical
     double lowest_normal;                       // N
   };
 
-  static Coefficients prepare(const Material& a, const Material& b, const Interaction& c, const ContactModel& model) {
+  static Coefficients prepare(const Material& a, const Material& b, const Interaction& c,
+                              const ContactModel& model) {
     const double c_n = c.restitution ? hertz_damping_ratio(*c.restitution) : c.damping_normal;
     const double c_t = c.restitution ? c_n : c.damping_tangential;
-    return {effective_young(a, b), effective_shear(a, b), c.sliding, c.rolling, c_n, c_t, lowest_normal(model.tension)};
+    return {effective_young(a, b),       effective_shear(a, b), c.sliding, c.rolling, c_n, c_t,
+            lowest_normal(model.tension)};
   }
 
   static void remove_friction(Coefficients& c) { c.sliding = c.rolling = 0; }
@@ -46,7 +48,8 @@ struct HertzMindlin {
     return out;
   }
 
-  static double normal_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/, double overlap) {
+  static double normal_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/,
+                              double overlap) {
     return (8.0 / 15.0) * c.young * std::sqrt(effective_radius * overlap) * overlap * overlap;
   }
   static double tangential_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/,

@@ -5,8 +5,8 @@
 
 namespace wedge {
 
-/// Turns a vector that is perpendicular to the unit vector `before` by the smallest rotation that takes `before` to the
-/// unit vector `now`: u - (before + now) (now . u) / (1 + before . now). Exact; keeps the length.
+/// Turns a vector that is perpendicular to the unit vector `before` by the smallest rotation that takes `before` to
+/// the unit vector `now`: u - (before + now) (now . u) / (1 + before . now). Exact; keeps the length.
 inline Vec3 follow_normal(Vec3 u, Vec3 before, Vec3 now) {
   const double factor = dot(now, u) / (1 + dot(before, now));
   return u - factor * (before + now);

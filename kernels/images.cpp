@@ -7,7 +7,8 @@
 namespace wedge {
 namespace {
 
-/// Turns at which copies of other grains act: every one for exact symmetry, the next ones for the axis rule `clamp`.
+/// Turns at which copies of other grains act: every one for exact symmetry, the next ones for the axis rule
+/// `clamp`.
 std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
   if (symmetry.kind() == Symmetry::Kind::translation) return {-1, 1};
   std::vector<int> turns;
@@ -19,7 +20,8 @@ std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
   return turns;
 }
 
-/// Distance from a point of the domain to its nearest periodic face, a lower bound for every copy's distance to the domain.
+/// Distance from a point of the domain to its nearest periodic face, a lower bound for every copy's distance to the
+/// domain.
 double distance_to_face(const Symmetry& symmetry, Vec3 p) {
   if (symmetry.kind() == Symmetry::Kind::translation) return std::min(p.y, symmetry.width() - p.y);
   const Vec3 q = symmetry.turn_vector(p, -1);  // the face phi = angle turned onto the x axis
@@ -65,7 +67,8 @@ void make_images(State& state, AxisRule axis) {
   resize_with_room(p.mass, slots);
   resize_with_room(p.material, slots);
   for (Index m = 0; m < images.count(); ++m) {
-    const auto image = static_cast<std::size_t>(n + m), owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
+    const auto image = static_cast<std::size_t>(n + m),
+               owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
     p.radius[image] = p.radius[owner];
     p.mass[image] = p.mass[owner];
     p.material[image] = p.material[owner];
@@ -79,7 +82,8 @@ void refresh_images(State& state) {
   const Symmetry& symmetry = state.symmetry;
   const Index n = p.count();
   for_each(images.count(), [&](Index m) {
-    const auto image = static_cast<std::size_t>(n + m), owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
+    const auto image = static_cast<std::size_t>(n + m),
+               owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
     const int k = images.turn[static_cast<std::size_t>(m)];
     p.position.set(image, symmetry.turn_point(p.position.get(owner), k));
     p.velocity_seen.set(image, symmetry.turn_vector(p.velocity_seen.get(owner), k));

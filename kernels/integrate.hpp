@@ -1,5 +1,5 @@
-// integrate.hpp: the half kicks and the drift of the velocity-Verlet step, with the rolling-friction limiter and the
-// axis rule `clamp`.
+// integrate.hpp: the half kicks and the drift of the velocity-Verlet step, with the rolling-friction limiter and
+// the axis rule `clamp`.
 #pragma once
 
 #include "core/parallel.hpp"
@@ -16,14 +16,15 @@ struct KickLosses {
   double rolling = 0, axis = 0;  // J
 };
 
-/// A grain closer to the axis than this part of its diameter has no radial direction; the axis rule leaves it alone.
+/// A grain closer to the axis than this part of its diameter has no radial direction; the axis rule leaves it
+/// alone.
 inline constexpr double axis_resolution = 1e-9;
 
 /// Velocity after a kick of length h [s] by the force f [N] and gravity g [m/s2].
 inline Vec3 kicked(Vec3 v, Vec3 f, Vec3 g, double mass, double h) { return v + h * ((1 / mass) * f + g); }
 
-/// The axis rule `clamp` (Yang et al. 2014, eqs 12-17): a grain whose surface reaches the axis and that moves towards it
-/// loses its radial velocity. `loss` grows by the energy taken [J].
+/// The axis rule `clamp` (Yang et al. 2014, eqs 12-17): a grain whose surface reaches the axis and that moves
+/// towards it loses its radial velocity. `loss` grows by the energy taken [J].
 inline Vec3 clamped_at_axis(Vec3 v, Vec3 position, double radius, double mass, double& loss) {
   const double r2 = position.x * position.x + position.y * position.y;
   const double outward = position.x * v.x + position.y * v.y;  // r v_r
@@ -33,9 +34,9 @@ inline Vec3 clamped_at_axis(Vec3 v, Vec3 position, double radius, double mass, d
   return {v.x - take * position.x, v.y - take * position.y, v.z};
 }
 
-/// Angular velocity after a kick of length h by the torque t [N m] while rolling friction resists up to `cap` [N m]:
-/// an exact limiter (PHYSICS: a grain whose spin the cap can stop within the kick stops and stays).
-/// `loss` grows by the rotational energy that rolling friction takes [J].
+/// Angular velocity after a kick of length h by the torque t [N m] while rolling friction resists up to `cap` [N
+/// m]: an exact limiter (PHYSICS: a grain whose spin the cap can stop within the kick stops and stays). `loss`
+/// grows by the rotational energy that rolling friction takes [J].
 inline Vec3 spun(Vec3 w, Vec3 t, double cap, double inertia, double h, double& loss) {
   const double rate = h / inertia;
   const Vec3 free = w + rate * t;
@@ -66,21 +67,43 @@ struct KickArrays {
 };
 
 inline KickArrays kick_arrays(Particles& p) {
-  return {p.position.x.data(), p.position.y.data(), p.position.z.data(), p.velocity.x.data(), p.velocity.y.data(),
-          p.velocity.z.data(), p.angular_velocity.x.data(), p.angular_velocity.y.data(), p.angular_velocity.z.data(),
-          p.velocity_seen.x.data(), p.velocity_seen.y.data(), p.velocity_seen.z.data(),
-          p.angular_velocity_seen.x.data(), p.angular_velocity_seen.y.data(), p.angular_velocity_seen.z.data(),
-          p.force.x.data(), p.force.y.data(), p.force.z.data(), p.torque.x.data(), p.torque.y.data(), p.torque.z.data(),
-          p.rolling_cap.data(), p.reference.x.data(), p.reference.y.data(), p.reference.z.data(), p.list_margin.data()};
+  return {p.position.x.data(),
+          p.position.y.data(),
+          p.position.z.data(),
+          p.velocity.x.data(),
+          p.velocity.y.data(),
+          p.velocity.z.data(),
+          p.angular_velocity.x.data(),
+          p.angular_velocity.y.data(),
+          p.angular_velocity.z.data(),
+          p.velocity_seen.x.data(),
+          p.velocity_seen.y.data(),
+          p.velocity_seen.z.data(),
+          p.angular_velocity_seen.x.data(),
+          p.angular_velocity_seen.y.data(),
+          p.angular_velocity_seen.z.data(),
+          p.force.x.data(),
+          p.force.y.data(),
+          p.force.z.data(),
+          p.torque.x.data(),
+          p.torque.y.data(),
+          p.torque.z.data(),
+          p.rolling_cap.data(),
+          p.reference.x.data(),
+          p.reference.y.data(),
+          p.reference.z.data(),
+          p.list_margin.data()};
 }
 
 /// The half kick of grain i with the forces in memory; returns the new velocities.
 template <Friction friction, AxisAction axis, class Bodies>
-__attribute__((always_inline)) inline void half_kick(const Bodies& b, const KickArrays& a, Index i, Vec3 g, double h,
-                                                     Vec3& v, Vec3& w, double& rolling, double& axis_loss) {
+__attribute__((always_inline)) inline void half_kick(const Bodies& b, const KickArrays& a, Index i, Vec3 g,
+                                                     double h, Vec3& v, Vec3& w, double& rolling,
+                                                     double& axis_loss) {
   const double mass = b.mass(i), radius = b.radius(i);
   v = kicked(v, {a.fx[i], a.fy[i], a.fz[i]}, g, mass, h);
-  if constexpr (axis == AxisAction::clamp) v = clamped_at_axis(v, {a.x[i], a.y[i], a.z[i]}, radius, mass, axis_loss);
+  if constexpr (axis == AxisAction::clamp)
+    v = clamped_at_axis(v, {a.x[i], a.y[i], a.z[i]}, radius, mass, axis_loss);
   if constexpr (friction == Friction::rolling) {
     w = spun(w, {a.tx[i], a.ty[i], a.tz[i]}, a.cap[i], sphere_inertia(mass, radius), h, rolling);
   } else if constexpr (friction == Friction::sliding) {
@@ -89,7 +112,8 @@ __attribute__((always_inline)) inline void half_kick(const Bodies& b, const Kick
 }
 
 /// First half of a step: kick by dt/2, drift by dt, predict the velocities that contacts will see at the new time.
-/// Returns whether the neighbour list went stale: a grain left the margin it had when the list was made (or is not a number).
+/// Returns whether the neighbour list went stale: a grain left the margin it had when the list was made (or is not
+/// a number).
 template <Friction friction, AxisAction axis, class Bodies>
 bool kick_and_drift(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
   const KickArrays arrays = kick_arrays(state.particles);
@@ -137,7 +161,9 @@ bool kick_and_drift(const Bodies& bodies, State& state, Vec3 gravity, double dt)
         }
         return Result{rolling, axis_loss, left};
       },
-      [](Result p, const Result& q) { return Result{p.rolling + q.rolling, p.at_axis + q.at_axis, p.left + q.left}; });
+      [](Result p, const Result& q) {
+        return Result{p.rolling + q.rolling, p.at_axis + q.at_axis, p.left + q.left};
+      });
   state.energy.rolling += result.rolling;
   state.energy.axis += result.at_axis;
   return result.left > 0;
@@ -172,7 +198,9 @@ void kick(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
         }
         return KickLosses{rolling, axis_loss};
       },
-      [](KickLosses p, const KickLosses& q) { return KickLosses{p.rolling + q.rolling, p.axis + q.axis}; });
+      [](KickLosses p, const KickLosses& q) {
+        return KickLosses{p.rolling + q.rolling, p.axis + q.axis};
+      });
   state.energy.rolling += losses.rolling;
   state.energy.axis += losses.axis;
 }

@@ -16,7 +16,8 @@ struct ElasticEnergy {
 struct LawPasses {
   std::function<void(State&, double dt)> evaluate_contacts;
   std::function<void(State&, double dt)> evaluate_walls;
-  /// Elastic energy of all contacts for which `counts(slot of a grain)` holds for either grain; every contact if empty.
+  /// Elastic energy of all contacts for which `counts(slot of a grain)` holds for either grain; every contact if
+  /// empty.
   std::function<ElasticEnergy(const State&, const std::function<bool(Index)>& counts)> elastic_energy;
 };
 

@@ -15,16 +15,17 @@ PairTable<typename Law::Coefficients> prepare_table(const Scene& scene) {
   PairTable<typename Law::Coefficients> table(kinds);
   for (int a = 0; a < kinds; ++a)
     for (int b = 0; b <= a; ++b)
-      table(a, b) = Law::prepare(scene.materials[static_cast<std::size_t>(a)], scene.materials[static_cast<std::size_t>(b)],
-                                 scene.interactions(a, b), scene.contact);
+      table(a, b) =
+          Law::prepare(scene.materials[static_cast<std::size_t>(a)], scene.materials[static_cast<std::size_t>(b)],
+                       scene.interactions(a, b), scene.contact);
   return table;
 }
 
 /// Elastic energy of the contacts in the tables, from overlap and stored displacement.
 /// A contact of a grain with its own copy half a turn away is shared by both, so half of it counts.
 template <class Law>
-ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table, const WallMix<Law>& walls, const State& state,
-                             const std::function<bool(Index)>& counts) {
+ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table, const WallMix<Law>& walls,
+                             const State& state, const std::function<bool(Index)>& counts) {
   const Particles& p = state.particles;
   const ContactTable& c = state.contacts;
   ElasticEnergy sum;
@@ -53,7 +54,8 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
       if (wall < 0) continue;
       const auto coefficients = walls.coefficients(p.material[i], state.vessel, wall);
       sum.normal += Law::normal_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k]);
-      sum.tangential += Law::tangential_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k], norm(w.history.get(k)));
+      sum.tangential +=
+          Law::tangential_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k], norm(w.history.get(k)));
     }
   }
   return sum;
@@ -86,11 +88,13 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
         if constexpr (decltype(one_kind)::value) {
           const int m = state.particles.material[0];
           const UniformMix<Law> mix{state.particles.radius[0], state.particles.mass[0], table(m, m)};
-          passes.evaluate_contacts = [mix](State& s, double dt) { evaluate_contacts<Law, need, books>(mix, s, dt); };
+          passes.evaluate_contacts = [mix](State& s, double dt) {
+            evaluate_contacts<Law, need, books>(mix, s, dt);
+          };
         } else {
           passes.evaluate_contacts = [table](State& s, double dt) {
-            const GeneralMix<Law> mix{s.particles.radius.data(), s.particles.mass.data(), s.particles.material.data(),
-                                      table.entries().data()};
+            const GeneralMix<Law> mix{s.particles.radius.data(), s.particles.mass.data(),
+                                      s.particles.material.data(), table.entries().data()};
             evaluate_contacts<Law, need, books>(mix, s, dt);
           };
         }

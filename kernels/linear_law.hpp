@@ -1,5 +1,6 @@
 // linear_law.hpp: spring and dashpot in both directions with a Coulomb cap.
-// Cundall & Strack (1979), Geotechnique 29, 47; stiffness from the contact time: Luding (2008), Granul. Matter 10, 235.
+// Cundall & Strack (1979), Geotechnique 29, 47; stiffness from the contact time: Luding (2008), Granul. Matter 10,
+// 235.
 #pragma once
 
 #include "kernels/contact_law.hpp"
@@ -21,8 +22,15 @@ struct LinearLaw {
     const double c_n = c.restitution ? linear_damping_ratio(*c.restitution) : c.damping_normal;
     const double c_t = c.restitution ? c_n : c.damping_tangential;
     // contact time: half a period of the damped oscillator, t_c = pi / (omega_0 sqrt(1 - c_n^2))
-    const double omega = model.contact_time > 0 ? 3.14159265358979323846 / (model.contact_time * std::sqrt(1 - c_n * c_n)) : 0;
-    return {model.contact_time > 0 ? 0 : model.normal_stiffness, omega * omega, model.tangential_ratio, c.sliding, c.rolling, c_n, c_t,
+    const double omega =
+        model.contact_time > 0 ? 3.14159265358979323846 / (model.contact_time * std::sqrt(1 - c_n * c_n)) : 0;
+    return {model.contact_time > 0 ? 0 : model.normal_stiffness,
+            omega * omega,
+            model.tangential_ratio,
+            c.sliding,
+            c.rolling,
+            c_n,
+            c_t,
             lowest_normal(model.tension)};
   }
 
@@ -53,7 +61,8 @@ struct LinearLaw {
     return out;
   }
 
-  static double normal_energy(const Coefficients& c, double /*effective_radius*/, double effective_mass, double overlap) {
+  static double normal_energy(const Coefficients& c, double /*effective_radius*/, double effective_mass,
+                              double overlap) {
     return 0.5 * normal_stiffness(c, effective_mass) * overlap * overlap;
   }
   static double tangential_energy(const Coefficients& c, double /*effective_radius*/, double effective_mass,

@@ -35,13 +35,15 @@ void choose_margins(State& state, double smallest, double dt) {
         return r;
       },
       [](Speeds a, const Speeds& b) {
-        return Speeds{a.sum + b.sum, std::max(a.largest, b.largest), std::min(a.smallest_radius, b.smallest_radius)};
+        return Speeds{a.sum + b.sum, std::max(a.largest, b.largest),
+                      std::min(a.smallest_radius, b.smallest_radius)};
       });
   if (n == 0) return;
   const double diameter = 2 * speeds.smallest_radius;
   const double mean_way = speeds.sum / n * dt / diameter + 1e-12;  // diameters per step
   const double largest_way = speeds.largest * dt / speeds.smallest_radius + 1e-12;
-  const double steps = std::min({std::sqrt(list_work_over_pair_work / mean_way), widest_margin / largest_way, longest_list});
+  const double steps =
+      std::min({std::sqrt(list_work_over_pair_work / mean_way), widest_margin / largest_way, longest_list});
   for_each(n, [&](Index i) {
     const auto s = static_cast<std::size_t>(i);
     p.list_margin[s] = smallest + steps * dt * norm(p.velocity.get(s));

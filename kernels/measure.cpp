@@ -17,7 +17,8 @@ std::vector<WallLoad> wall_loads(const State& state) {
     for (auto k = static_cast<std::size_t>(w.begin[g]); k < static_cast<std::size_t>(w.begin[g + 1]); ++k) {
       const int wall = w.touching[k] ? state.vessel.carrier(w.feature[k]) : -1;
       if (wall < 0) continue;
-      const Vec3 point = state.particles.position.get(i) + (state.particles.radius[i] - w.overlap[k]) * w.normal.get(k);
+      const Vec3 point =
+          state.particles.position.get(i) + (state.particles.radius[i] - w.overlap[k]) * w.normal.get(k);
       WallLoad& load = loads[static_cast<std::size_t>(wall)];
       load.force -= w.force.get(k);
       load.torque -= cross(point, w.force.get(k));
@@ -32,7 +33,8 @@ Vec3 momentum(const State& state) {
       p.count(), Vec3{},
       [&](Index begin, Index end) {
         Vec3 sum;
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) sum += p.mass[i] * p.velocity.get(i);
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+          sum += p.mass[i] * p.velocity.get(i);
         return sum;
       },
       [](Vec3 a, const Vec3& b) { return a + b; });

@@ -1,5 +1,6 @@
 // mindlin_deresiewicz.hpp: the default law: Hertz, viscous damping, Mindlin-Deresiewicz friction with its stored
-// displacement. Zhou, Xu, Yu, Zulli (2002), Powder Technol. 125, 45; Yang et al. (2014), Ind. Eng. Chem. Res. 53, 8245.
+// displacement. Zhou, Xu, Yu, Zulli (2002), Powder Technol. 125, 45; Yang et al. (2014), Ind. Eng. Chem. Res. 53,
+// 8245.
 #pragma once
 
 #include "kernels/contact_law.hpp"
@@ -8,22 +9,28 @@ namespace wedge {
 
 struct MindlinDeresiewicz {
   struct Coefficients {
-    double young;           // E*, Pa
-    double sliding;         // mu_s
-    double rolling;         // mu_r, m
-    double limit;           // dt_max / dn = mu_s E* / (4 G*)
-    double damping_normal;  // c_n
+    double young;                       // E*, Pa
+    double sliding;                     // mu_s
+    double rolling;                     // mu_r, m
+    double limit;                       // dt_max / dn = mu_s E* / (4 G*)
+    double damping_normal;              // c_n
     double damping_tangential_squared;  // 6 c_t^2 (4/3) E* mu_s dn / dt_max, Pa: what is constant under the root
-    double lowest_normal;   // N
+    double lowest_normal;               // N
   };
 
-  static Coefficients prepare(const Material& a, const Material& b, const Interaction& c, const ContactModel& model) {
+  static Coefficients prepare(const Material& a, const Material& b, const Interaction& c,
+                              const ContactModel& model) {
     const double young = effective_young(a, b);
     // dt_max / (mu_s dn); the damping needs mu_s / limit, which is 1 / slope and stays finite without friction
     const double slope = young / (4 * effective_shear(a, b));
     const double c_n = c.restitution ? hertz_damping_ratio(*c.restitution) : c.damping_normal;
     const double c_t = c.restitution ? c_n : c.damping_tangential;
-    return {young,        c.sliding, c.rolling, c.sliding * slope, c_n, 6 * c_t * c_t * (4.0 / 3.0) * young / slope,
+    return {young,
+            c.sliding,
+            c.rolling,
+            c.sliding * slope,
+            c_n,
+            6 * c_t * c_t * (4.0 / 3.0) * young / slope,
             lowest_normal(model.tension)};
   }
 
@@ -44,7 +51,8 @@ struct MindlinDeresiewicz {
     const double left_root = std::sqrt(left);
     const double keep = std::min(1.0, length_max * inverse_length);  // cut back to dt_max
     const double elastic = c.sliding * out.elastic_normal * (1 - left * left_root);
-    const double viscous = c.sliding > 0 ? std::sqrt(c.damping_tangential_squared * in.effective_mass * root * left_root) : 0.0;
+    const double viscous =
+        c.sliding > 0 ? std::sqrt(c.damping_tangential_squared * in.effective_mass * root * left_root) : 0.0;
     out.displacement = keep * in.displacement;
     out.elastic_tangential = (-elastic * inverse_length) * in.displacement;
     out.tangential = out.elastic_tangential - viscous * in.tangential_velocity;
@@ -53,7 +61,8 @@ struct MindlinDeresiewicz {
   }
 
   /// Elastic energy [J] of the normal part at an overlap.
-  static double normal_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/, double overlap) {
+  static double normal_energy(const Coefficients& c, double effective_radius, double /*effective_mass*/,
+                              double overlap) {
     return (8.0 / 15.0) * c.young * std::sqrt(effective_radius * overlap) * overlap * overlap;
   }
   /// Elastic energy [J] of the tangential part at a displacement of length `length`.

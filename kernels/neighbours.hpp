@@ -10,11 +10,11 @@ namespace wedge {
 /// Working memory of the passes, kept between calls so that a step allocates nothing once sizes have settled.
 struct NeighbourScratch {
   CellGrid grid;
-  Array<std::int32_t> wrap;   // per grain: turns by which the last wrap turned it
-  Array<std::int32_t> leaves; // per grain: 1 when it leaves; empty when none does
-  Array<Index> cell, order;   // per grain: its cell; old slot of each new slot
-  Array<Index> old_slot;      // per grain: where it stood before the last sort
-  Array<Index> grain_begin;   // per cell: first grain (grains are sorted by cell)
+  Array<std::int32_t> wrap;               // per grain: turns by which the last wrap turned it
+  Array<std::int32_t> leaves;             // per grain: 1 when it leaves; empty when none does
+  Array<Index> cell, order;               // per grain: its cell; old slot of each new slot
+  Array<Index> old_slot;                  // per grain: where it stood before the last sort
+  Array<Index> grain_begin;               // per cell: first grain (grains are sorted by cell)
   Array<Index> image_begin, image_order;  // per cell: its images, in image order
   Array<double> real_buffer;
   Array<std::int32_t> whole_buffer;
@@ -26,22 +26,23 @@ struct NeighbourScratch {
 };
 
 /// How far each grain may go before the list is stale, from its speed and from what lists and pairs cost.
-/// Pre: dt > 0 [s]. `smallest` [m] bounds the margins from below. Post: list_margin, wall_margin are set; reference is the position.
+/// Pre: dt > 0 [s]. `smallest` [m] bounds the margins from below. Post: list_margin, wall_margin are set; reference
+/// is the position.
 void choose_margins(State& state, double smallest, double dt);
 
 /// Turns grains that left through a face home: position, velocities, forces. Post: scratch.wrap holds their turns.
 void wrap(State& state, NeighbourScratch& scratch);
 
-/// Marks the grains whose centre is below `outlet` [m] and records their departure. Post: scratch.leaves[i] is 1 for them.
-/// Returns how many there are. They are taken out by sort_by_cell.
+/// Marks the grains whose centre is below `outlet` [m] and records their departure. Post: scratch.leaves[i] is 1
+/// for them. Returns how many there are. They are taken out by sort_by_cell.
 Index mark_departures(State& state, NeighbourScratch& scratch, double outlet);
 
 /// Sorts the grains by cell, then id; those marked in scratch.leaves drop out.
 /// Post: grains of a cell are consecutive; scratch.old_slot says whence they came.
 void sort_by_cell(State& state, NeighbourScratch& scratch);
 
-/// Writes the copies of grains near the faces behind the grains. Post: images.owner ascends; radius, mass, material of
-/// the images are set; positions and velocities are refreshed.
+/// Writes the copies of grains near the faces behind the grains. Post: images.owner ascends; radius, mass, material
+/// of the images are set; positions and velocities are refreshed.
 void make_images(State& state, AxisRule axis);
 
 /// Moves images with their owners: x, v and w turned by the image's turn. An index-mapped pass.

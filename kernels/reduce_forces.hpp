@@ -14,7 +14,8 @@ struct Felt {
   Vec3 force, torque;
   double cap = 0;
 
-  /// Adds row r; `sign` is +1 for the first grain of the row, -1 for the second. A lever torque is the same for both.
+  /// Adds row r; `sign` is +1 for the first grain of the row, -1 for the second. A lever torque is the same for
+  /// both.
   template <Friction friction>
   void add(const ContactTable& c, Index row, double sign, double radius) {
     const auto r = static_cast<std::size_t>(row);
@@ -34,8 +35,8 @@ struct Felt {
   }
 };
 
-/// Pre: evaluate_contacts wrote all rows. Post: force, torque and rolling_cap of every grain are the sums of its own
-/// rows, ascending, and then of the rows in which it is `second`, ascending. Images are not yet folded back.
+/// Pre: evaluate_contacts wrote all rows. Post: force, torque and rolling_cap of every grain are the sums of its
+/// own rows, ascending, and then of the rows in which it is `second`, ascending. Images are not yet folded back.
 template <Friction friction, class Bodies>
 void reduce_forces(const Bodies& bodies, State& state) {
   Particles& p = state.particles;

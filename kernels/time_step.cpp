@@ -30,9 +30,12 @@ Friction needed_friction(const Scene& scene) {
 
 LawPasses law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
   switch (scene.contact.law) {
-    case ContactLaw::hertz_mindlin: return make_law_passes<HertzMindlin>(scene, state, friction, uniform);
-    case ContactLaw::linear: return make_law_passes<LinearLaw>(scene, state, friction, uniform);
-    case ContactLaw::mindlin_deresiewicz: break;
+    case ContactLaw::hertz_mindlin:
+      return make_law_passes<HertzMindlin>(scene, state, friction, uniform);
+    case ContactLaw::linear:
+      return make_law_passes<LinearLaw>(scene, state, friction, uniform);
+    case ContactLaw::mindlin_deresiewicz:
+      break;
   }
   return make_law_passes<MindlinDeresiewicz>(scene, state, friction, uniform);
 }
@@ -105,10 +108,12 @@ void TimeStep::book_departures(State& state) {
     const auto s = static_cast<std::size_t>(i);
     if (!scratch_.leaves[s]) continue;
     const Vec3 v = p.velocity_seen.get(s), w = p.angular_velocity_seen.get(s);
-    state.energy.carried_out += 0.5 * p.mass[s] * dot(v, v) + 0.5 * sphere_inertia(p.mass[s], p.radius[s]) * dot(w, w) -
+    state.energy.carried_out += 0.5 * p.mass[s] * dot(v, v) +
+                                0.5 * sphere_inertia(p.mass[s], p.radius[s]) * dot(w, w) -
                                 p.mass[s] * dot(g, p.position.get(s));
   }
-  const ElasticEnergy stored = law_.elastic_energy(state, [&](Index i) { return scratch_.leaves[static_cast<std::size_t>(i)] != 0; });
+  const ElasticEnergy stored =
+      law_.elastic_energy(state, [&](Index i) { return scratch_.leaves[static_cast<std::size_t>(i)] != 0; });
   state.energy.carried_out += stored.normal + stored.tangential;
   state.energy.elastic_tangential_removed += stored.tangential;
 }
@@ -143,13 +148,15 @@ Energies TimeStep::energies(const State& state) const {
 
 double TimeStep::history_coupling(const State& state, const Energies& start, const Energies& now) const {
   const EnergyLedger& l = state.energy;
-  return now.elastic_tangential + l.elastic_tangential_removed - start.elastic_tangential - l.tangential_work + l.sliding;
+  return now.elastic_tangential + l.elastic_tangential_removed - start.elastic_tangential - l.tangential_work +
+         l.sliding;
 }
 
 double TimeStep::residual(const State& state, const Energies& start, const Energies& now) const {
   const EnergyLedger& l = state.energy;
-  return now.total() - start.total() - l.carried_in + l.carried_out - l.wall_work - history_coupling(state, start, now) +
-         l.normal_damping + l.tangential_damping + l.sliding + l.rolling + l.axis;
+  return now.total() - start.total() - l.carried_in + l.carried_out - l.wall_work -
+         history_coupling(state, start, now) + l.normal_damping + l.tangential_damping + l.sliding + l.rolling +
+         l.axis;
 }
 
 }  // namespace wedge

@@ -17,8 +17,9 @@ struct Energies {
 };
 
 class TimeStep {
- public:
-  /// Chooses laws and types from the scene and from what the grains of `state` have in common. Pre: describe_grains.
+public:
+  /// Chooses laws and types from the scene and from what the grains of `state` have in common. Pre:
+  /// describe_grains.
   TimeStep(const Scene& scene, const State& state);
 
   /// Makes the first neighbour list and the forces of the first moment. Throws PhysicsError.
@@ -36,7 +37,7 @@ class TimeStep {
 
   Stopwatch& stopwatch() { return stopwatch_; }
 
- private:
+private:
   void renew_list(State& state, double dt);
   void forces(State& state, double dt);
   void book_departures(State& state);

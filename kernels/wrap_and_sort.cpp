@@ -33,7 +33,8 @@ Box bounding_box(const Vec3Array& x, Index n) {
       });
 }
 
-/// Reach of a pair of the largest grains with the largest margins [m]: the smallest cell that needs only its neighbours.
+/// Reach of a pair of the largest grains with the largest margins [m]: the smallest cell that needs only its
+/// neighbours.
 double largest_reach(const Particles& p) {
   const double half = reduce_blocks(
       p.count(), 0.0,
@@ -51,7 +52,9 @@ template <class T>
 void permute(Array<T>& field, const Array<Index>& order, Array<T>& buffer) {
   const auto n = static_cast<Index>(order.size());
   buffer.resize(order.size());
-  for_each(n, [&](Index k) { buffer[static_cast<std::size_t>(k)] = field[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])]; });
+  for_each(n, [&](Index k) {
+    buffer[static_cast<std::size_t>(k)] = field[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])];
+  });
   field.swap(buffer);
 }
 
@@ -67,12 +70,15 @@ void order_by_cell(const Particles& p, NeighbourScratch& s) {
   s.order.resize(static_cast<std::size_t>(s.grain_begin.back()));
   s.old_slot.assign(s.grain_begin.begin(), s.grain_begin.end() - 1);  // used as the fill position of each cell
   for (std::size_t i = 0; i < n; ++i)
-    if (stays(i)) s.order[static_cast<std::size_t>(s.old_slot[static_cast<std::size_t>(s.cell[i])]++)] = static_cast<Index>(i);
+    if (stays(i))
+      s.order[static_cast<std::size_t>(s.old_slot[static_cast<std::size_t>(s.cell[i])]++)] = static_cast<Index>(i);
   for_each(static_cast<Index>(cells), [&](Index c) {
     const auto b = s.order.begin() + s.grain_begin[static_cast<std::size_t>(c)];
     const auto e = s.order.begin() + s.grain_begin[static_cast<std::size_t>(c) + 1];
     if (e - b > 1)
-      std::sort(b, e, [&](Index a, Index d) { return p.id[static_cast<std::size_t>(a)] < p.id[static_cast<std::size_t>(d)]; });
+      std::sort(b, e, [&](Index a, Index d) {
+        return p.id[static_cast<std::size_t>(a)] < p.id[static_cast<std::size_t>(d)];
+      });
   });
 }
 
@@ -92,7 +98,8 @@ void wrap(State& state, NeighbourScratch& scratch) {
     scratch.wrap[s] = k;
     if (k == 0) return;
     p.position.set(s, symmetry.turn_point(p.position.get(s), k));
-    for (Vec3Array* field : {&p.velocity, &p.angular_velocity, &p.velocity_seen, &p.angular_velocity_seen, &p.force, &p.torque})
+    for (Vec3Array* field :
+         {&p.velocity, &p.angular_velocity, &p.velocity_seen, &p.angular_velocity_seen, &p.force, &p.torque})
       field->set(s, symmetry.turn_vector(field->get(s), k));
     p.turns[s] -= k;
   });
@@ -130,12 +137,16 @@ void sort_by_cell(State& state, NeighbourScratch& s) {
   const Vec3 around{reach, reach, 0};
   s.grid = CellGrid(box.low - around, box.high + around, reach, std::max<std::int64_t>(4096, 8 * std::int64_t{n}));
   s.cell.resize(static_cast<std::size_t>(n));
-  for_each(n, [&](Index i) { s.cell[static_cast<std::size_t>(i)] = s.grid.cell(p.position.get(static_cast<std::size_t>(i))); });
+  for_each(n, [&](Index i) {
+    s.cell[static_cast<std::size_t>(i)] = s.grid.cell(p.position.get(static_cast<std::size_t>(i)));
+  });
   order_by_cell(p, s);
   const auto reorder = [&](auto& field) {
     using Number = typename std::decay_t<decltype(field)>::value_type;
-    if constexpr (std::is_same_v<Number, double>) permute(field, s.order, s.real_buffer);
-    else permute(field, s.order, s.whole_buffer);
+    if constexpr (std::is_same_v<Number, double>)
+      permute(field, s.order, s.real_buffer);
+    else
+      permute(field, s.order, s.whole_buffer);
   };
   Particles::for_each_field(p, [&](const FieldInfo&, auto& field) { reorder(field); });
   for (Vec3Array* seen : {&p.velocity_seen, &p.angular_velocity_seen}) {
@@ -153,7 +164,8 @@ void check_motion(const State& state, double dt) {
   const auto wrong = [&](Index i) {
     const auto s = static_cast<std::size_t>(i);
     const double way = norm(p.velocity.get(s)) * dt;
-    return !(way <= largest_way_per_step * p.radius[s]) || !std::isfinite(dot(p.position.get(s), p.position.get(s)));
+    return !(way <= largest_way_per_step * p.radius[s]) ||
+           !std::isfinite(dot(p.position.get(s), p.position.get(s)));
   };
   const Index first = reduce_blocks(
       p.count(), p.count(),
@@ -169,7 +181,8 @@ void check_motion(const State& state, double dt) {
   std::ostringstream text;
   text << "grain " << p.id[s] << " at (" << x.x << ", " << x.y << ", " << x.z << ") m moves at " << norm(v)
        << " m/s in step " << state.step << ": more than " << largest_way_per_step << " radii in one step of " << dt
-       << " s. Likely cause: the time step is too long for the stiffness, or grains started deep inside each other or a wall.";
+       << " s. Likely cause: the time step is too long for the stiffness, or grains started deep inside each other "
+          "or a wall.";
   throw PhysicsError(text.str());
 }
 

@@ -1,10 +1,13 @@
-// bench_step.cpp: how many particle-steps per second does the whole step do? Needs a compiler and Eigen's headers only.
+// bench_step.cpp: how many particle-steps per second does the whole step do? Needs a compiler and Eigen's headers
+// only.
 //
-//   bench_step --case column --particles N --threads T --rolling on|off --steps S [--angle DEGREES] [--settle SECONDS]
+//   bench_step --case column --particles N --threads T --rolling on|off --steps S [--angle DEGREES] [--settle
+//   SECONDS]
 //              [--budget on|off] [--start FILE]
 //
-// Case `column`: hopper grains (PHYSICS section 4) in a flat-bottomed cylinder of diameter 0.2 m, settled from a random
-// fill, or from the places in FILE (lines "x y z" [m], then settled as long), then timed. The last line is `particle_steps_per_second <number>`: the median of five windows of S steps.
+// Case `column`: hopper grains (PHYSICS section 4) in a flat-bottomed cylinder of diameter 0.2 m, settled from a
+// random fill, or from the places in FILE (lines "x y z" [m], then settled as long), then timed. The last line is
+// `particle_steps_per_second <number>`: the median of five windows of S steps.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -38,7 +41,8 @@ Scene column_scene(long particles, bool rolling, int order) {
     c.damping_normal = c.damping_tangential = 0.3;
   }
   const double d = 0.005, radius = 0.1;
-  const double height = static_cast<double>(particles) * (3.14159265358979 / 6) * d * d * d / (0.27 * 3.14159265358979 * radius * radius);
+  const double height = static_cast<double>(particles) * (3.14159265358979 / 6) * d * d * d /
+                        (0.27 * 3.14159265358979 * radius * radius);
   WallDescription wall;
   wall.name = "vessel";
   wall.profile = {{0, 0}, {radius, 0}, {radius, 3 * height + 1}};
@@ -74,9 +78,9 @@ void read_places(State& state, const Scene& scene, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::map<std::string, std::string> option{{"case", "column"}, {"particles", "32000"}, {"threads", "1"}, {"precision", "double"},
-                                            {"rolling", "on"},  {"steps", "500"},       {"angle", "360"}, {"settle", "0.7"},
-                                            {"budget", "on"}, {"start", ""}};
+  std::map<std::string, std::string> option{
+      {"case", "column"}, {"particles", "32000"}, {"threads", "1"},  {"precision", "double"}, {"rolling", "on"},
+      {"steps", "500"},   {"angle", "360"},       {"settle", "0.7"}, {"budget", "on"},        {"start", ""}};
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strncmp(argv[i], "--", 2) != 0 || !option.count(argv[i] + 2)) {
       std::fprintf(stderr, "bench_step: unknown option %s\n", argv[i]);
@@ -106,7 +110,8 @@ int main(int argc, char** argv) {
   settle.start(state, dt);
   const auto settle_begin = std::chrono::steady_clock::now();
   while (state.time < std::atof(option["settle"].c_str())) settle.advance(state, dt);
-  const double settle_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - settle_begin).count();
+  const double settle_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - settle_begin).count();
 
   TimeStep step(scene, state);
   const double n = state.particles.count();
@@ -119,14 +124,19 @@ int main(int argc, char** argv) {
   }
   std::sort(rates.begin(), rates.end());
   long touching = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k) touching += state.contacts.half_overlap(k) > 0;
-  std::printf("grains %.0f images %d pairs/grain %.3f contacts/grain %.3f lists %lld in %d steps; settling %.0f particle-steps/s\n", n,
-              state.images.count(), state.contacts.rows() / n, static_cast<double>(touching) / n,
-              static_cast<long long>(state.list_builds - builds), 5 * steps, n * static_cast<double>(state.step - 5 * steps) / settle_seconds);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k)
+    touching += state.contacts.half_overlap(k) > 0;
+  std::printf(
+      "grains %.0f images %d pairs/grain %.3f contacts/grain %.3f lists %lld in %d steps; settling %.0f "
+      "particle-steps/s\n",
+      n, state.images.count(), state.contacts.rows() / n, static_cast<double>(touching) / n,
+      static_cast<long long>(state.list_builds - builds), 5 * steps,
+      n * static_cast<double>(state.step - 5 * steps) / settle_seconds);
   double total = 0;
   for (const auto& [pass, t] : step.stopwatch().times()) total += t.seconds;
   for (const auto& [pass, t] : step.stopwatch().times())
-    std::printf("%-20s %6.1f ns per particle-step  %5.1f %%\n", pass.c_str(), 1e9 * t.seconds / (n * 5 * steps), 100 * t.seconds / total);
+    std::printf("%-20s %6.1f ns per particle-step  %5.1f %%\n", pass.c_str(), 1e9 * t.seconds / (n * 5 * steps),
+                100 * t.seconds / total);
   const Energies e = step.energies(state);
   std::printf("kinetic energy per grain %.3g J\n", (e.kinetic + e.rotational) / n);
   rusage usage{};

@@ -81,7 +81,7 @@ inline State make_state(const Scene& scene, const std::vector<Grain>& grains) {
 
 /// A scene, its state and the step, ready to run. Grains are looked up by id, whatever the order in memory.
 class Experiment {
- public:
+public:
   Experiment(const Scene& scene, const std::vector<Grain>& grains, double dt)
       : state(make_state(scene, grains)), step(scene, state), dt_(dt) {
     step.start(state, dt);
@@ -111,7 +111,8 @@ class Experiment {
   /// Contacts of grains that touch, as the list has them.
   int touching() const {
     int n = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k) n += state.contacts.half_overlap(k) > 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k)
+      n += state.contacts.half_overlap(k) > 0;
     return n;
   }
   double deepest_overlap() const {
@@ -131,7 +132,7 @@ class Experiment {
   TimeStep step;
   Energies begin;
 
- private:
+private:
   double dt_;
 };
 

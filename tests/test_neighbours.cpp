@@ -12,7 +12,11 @@ using namespace wedge::test;
 
 namespace {
 
-struct Case { DomainKind kind; int order; AxisRule axis; };
+struct Case {
+  DomainKind kind;
+  int order;
+  AxisRule axis;
+};
 
 Scene scene_of(const Case& c) {
   Scene s = plain_scene(1e7, 0.3, 3800, 0.5, 0.3);
@@ -33,7 +37,8 @@ std::vector<Grain> cloud(const Scene& scene, int count, std::uint64_t seed) {
   while (static_cast<int>(grains.size()) < count) {
     Vec3 x{random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(0, 0.02)};
     x = symmetry.turn_point(x, symmetry.turns_home(x));
-    Grain g{0.001 * random.uniform(1, 2), x, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, {}};
+    Grain g{
+        0.001 * random.uniform(1, 2), x, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, {}};
     bool deep = false;
     for (int k = -scene.domain.order; k <= scene.domain.order && !deep; ++k) {
       const Vec3 copy = symmetry.turn_point(x, k);
@@ -50,10 +55,12 @@ using Identity = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // small
 }  // namespace
 
 TEST_CASE("the neighbour list holds exactly the pairs of a search over all pairs and turns", "[neighbours]") {
-  for (const Case& c : {Case{DomainKind::full, 1, AxisRule::clamp}, Case{DomainKind::slot, 1, AxisRule::clamp},
-                        Case{DomainKind::sector, 2, AxisRule::clamp}, Case{DomainKind::sector, 2, AxisRule::images}, Case{DomainKind::sector, 3, AxisRule::clamp},
-                        Case{DomainKind::sector, 4, AxisRule::clamp}, Case{DomainKind::sector, 4, AxisRule::images},
-                        Case{DomainKind::sector, 12, AxisRule::clamp}, Case{DomainKind::sector, 12, AxisRule::images}}) {
+  for (const Case& c :
+       {Case{DomainKind::full, 1, AxisRule::clamp}, Case{DomainKind::slot, 1, AxisRule::clamp},
+        Case{DomainKind::sector, 2, AxisRule::clamp}, Case{DomainKind::sector, 2, AxisRule::images},
+        Case{DomainKind::sector, 3, AxisRule::clamp}, Case{DomainKind::sector, 4, AxisRule::clamp},
+        Case{DomainKind::sector, 4, AxisRule::images}, Case{DomainKind::sector, 12, AxisRule::clamp},
+        Case{DomainKind::sector, 12, AxisRule::images}}) {
     const Scene scene = scene_of(c);
     Experiment e(scene, cloud(scene, 500 / c.order, 3), 1e-6);
     const State& s = e.state;
@@ -66,16 +73,19 @@ TEST_CASE("the neighbour list holds exactly the pairs of a search over all pairs
       for (std::size_t j = 0; j < n; ++j)
         for (int k = -last; k <= last; ++k) {
           const int turn = s.symmetry.residue(k);
-          const bool acts = turn == 0 || c.kind == DomainKind::slot || c.axis == AxisRule::images || turn == 1 || turn == -1;
+          const bool acts =
+              turn == 0 || c.kind == DomainKind::slot || c.axis == AxisRule::images || turn == 1 || turn == -1;
           const bool own = i == j && (turn == 0 || turn < 0 || c.axis != AxisRule::images);
           if (!acts || own || p.id[i] > p.id[j]) continue;
           const double reach = p.radius[i] + p.radius[j] + p.list_margin[i] + p.list_margin[j];
-          if (norm(s.symmetry.turn_point(p.position.get(j), turn) - p.position.get(i)) < reach) expected.insert({p.id[i], p.id[j], turn});
+          if (norm(s.symmetry.turn_point(p.position.get(j), turn) - p.position.get(i)) < reach)
+            expected.insert({p.id[i], p.id[j], turn});
         }
     std::set<Identity> found;
     for (Index k = 0; k < s.contacts.rows(); ++k) {
       const auto r = static_cast<std::size_t>(k);
-      const auto first = static_cast<std::size_t>(s.contacts.first[r]), second = static_cast<std::size_t>(s.contacts.second[r]);
+      const auto first = static_cast<std::size_t>(s.contacts.first[r]),
+                 second = static_cast<std::size_t>(s.contacts.second[r]);
       CHECK(found.insert({p.id[first], s.contacts.partner_id[r], s.contacts.turn[r]}).second);  // once each
       const bool image = second >= n;
       const std::size_t owner = image ? static_cast<std::size_t>(s.images.owner[second - n]) : second;
@@ -95,10 +105,12 @@ TEST_CASE("every copy of a grain within reach of the domain is an image, and no 
     const Particles& p = e.state.particles;
     std::set<std::pair<Index, int>> images;
     for (Index m = 0; m < e.state.images.count(); ++m)
-      images.insert({e.state.images.owner[static_cast<std::size_t>(m)], e.state.images.turn[static_cast<std::size_t>(m)]});
+      images.insert(
+          {e.state.images.owner[static_cast<std::size_t>(m)], e.state.images.turn[static_cast<std::size_t>(m)]});
     CHECK(static_cast<Index>(images.size()) == e.state.images.count());
     double widest = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i) widest = std::max(widest, p.radius[i] + p.list_margin[i]);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i)
+      widest = std::max(widest, p.radius[i] + p.list_margin[i]);
     for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i) {
       for (int k = 1; k < order; ++k) {
         const int turn = e.state.symmetry.residue(k);
@@ -111,9 +123,11 @@ TEST_CASE("every copy of a grain within reach of the domain is an image, and no 
 }
 
 TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force", "[neighbours]") {
-  // Momentum: full vessel and slot keep P; a sector's forces on grains equal those of direct evaluation of every row.
-  for (const Case& c : {Case{DomainKind::full, 1, AxisRule::clamp}, Case{DomainKind::slot, 1, AxisRule::clamp}, Case{DomainKind::sector, 4, AxisRule::images},
-                        Case{DomainKind::sector, 3, AxisRule::clamp}}) {
+  // Momentum: full vessel and slot keep P; a sector's forces on grains equal those of direct evaluation of every
+  // row.
+  for (const Case& c :
+       {Case{DomainKind::full, 1, AxisRule::clamp}, Case{DomainKind::slot, 1, AxisRule::clamp},
+        Case{DomainKind::sector, 4, AxisRule::images}, Case{DomainKind::sector, 3, AxisRule::clamp}}) {
     const Scene scene = scene_of(c);
     Experiment e(scene, cloud(scene, 400 / c.order, 7), 1e-6);
     e.run(20);
@@ -121,19 +135,22 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
     const auto n = static_cast<std::size_t>(s.particles.count());
     std::vector<Vec3> force(n), torque(n);
     for (std::size_t r = 0; r < static_cast<std::size_t>(s.contacts.rows()); ++r) {
-      const auto i = static_cast<std::size_t>(s.contacts.first[r]), slot = static_cast<std::size_t>(s.contacts.second[r]);
+      const auto i = static_cast<std::size_t>(s.contacts.first[r]),
+                 slot = static_cast<std::size_t>(s.contacts.second[r]);
       const std::size_t j = slot < n ? slot : static_cast<std::size_t>(s.images.owner[slot - n]);
       const Vec3 f = s.contacts.force(r), q = s.contacts.lever_torque(r);
       force[i] += f;
       torque[i] += (s.particles.radius[i] - s.contacts.half_overlap(r)) * q;
       if (i == j && 2 * s.contacts.turn[r] == c.order) continue;
       force[j] -= s.symmetry.turn_vector(f, -s.contacts.turn[r]);
-      torque[j] += (s.particles.radius[j] - s.contacts.half_overlap(r)) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
+      torque[j] +=
+          (s.particles.radius[j] - s.contacts.half_overlap(r)) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
     }
     double scale = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {
       scale = std::max(scale, norm(force[i]));
-      worst = std::max({worst, norm(force[i] - s.particles.force.get(i)), norm(torque[i] - s.particles.torque.get(i)) / s.particles.radius[i]});
+      worst = std::max({worst, norm(force[i] - s.particles.force.get(i)),
+                        norm(torque[i] - s.particles.torque.get(i)) / s.particles.radius[i]});
     }
     CHECK(scale > 0);
     CHECK(worst < 1e-14 * scale);
@@ -150,7 +167,8 @@ TEST_CASE("a moving bed never misses a contact: every overlap is in the list at 
     for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i)
       for (std::size_t j = i + 1; j < static_cast<std::size_t>(p.count()); ++j)
         for (const int k : {-1, 0, 1})
-          overlaps += norm(e.state.symmetry.turn_point(p.position.get(j), k) - p.position.get(i)) < p.radius[i] + p.radius[j];
+          overlaps += norm(e.state.symmetry.turn_point(p.position.get(j), k) - p.position.get(i)) <
+                      p.radius[i] + p.radius[j];
     REQUIRE(e.touching() == overlaps);
   }
   CHECK(e.state.list_builds > 2);

@@ -39,16 +39,26 @@ TEST_CASE("slip to roll: a sliding sphere ends rolling at 5/7 of its speed", "[r
     const double expected_time = e.state.time + slip() / (mu * g * (1 + 2.5 * l * l / (R * R)));
     CHECK(expected_time == Approx(2 * u0 / (7 * mu * g)).epsilon(0.1));
     double rolls_at = 0;
-    e.run_until([&] { if (rolls_at == 0 && slip() <= 1e-3 * u0) rolls_at = e.state.time; return e.state.time > 2 * expected_time; }, 1000000);
+    e.run_until(
+        [&] {
+          if (rolls_at == 0 && slip() <= 1e-3 * u0) rolls_at = e.state.time;
+          return e.state.time > 2 * expected_time;
+        },
+        1000000);
     CHECK(e.v(0).x == Approx(u0 / (1 + 2 * R * R / (5 * l * l))).epsilon(2e-4));
     CHECK(e.w(0).y == Approx(e.v(0).x / l).epsilon(2e-4));
     CHECK(rolls_at == Approx(expected_time).epsilon(5e-3));
   }
 }
 
-TEST_CASE("rolling friction stops a rolling sphere after the time and way of a constant torque, and it stays", "[rolling]") {
-  struct Row { Scene scene; double radius, time, way; };
-  for (const Row& row : {Row{hopper_material(), 0.0025, 0.3568, 17.84e-3}, Row{pile_material(), 0.001, 0.1427, 7.136e-3}}) {
+TEST_CASE("rolling friction stops a rolling sphere after the time and way of a constant torque, and it stays",
+          "[rolling]") {
+  struct Row {
+    Scene scene;
+    double radius, time, way;
+  };
+  for (const Row& row :
+       {Row{hopper_material(), 0.0025, 0.3568, 17.84e-3}, Row{pile_material(), 0.001, 0.1427, 7.136e-3}}) {
     const Scene s = on_plate(row.scene);
     const double R = row.radius, u = 0.1, l = R - resting_overlap(s, R), dt = 1e-5;
     Experiment e(s, {resting(s, R, {u, 0, 0}, {0, u / l, 0})}, dt);
@@ -68,7 +78,8 @@ TEST_CASE("rolling friction stops a rolling sphere after the time and way of a c
 }
 
 TEST_CASE("a sphere rests on an incline up to atan(mu_r / R) and rolls beyond", "[rolling]") {
-  for (const auto& [scene, R, degrees] : {std::make_tuple(hopper_material(), 0.0025, 2.291), std::make_tuple(pile_material(), 0.001, 5.711)}) {
+  for (const auto& [scene, R, degrees] :
+       {std::make_tuple(hopper_material(), 0.0025, 2.291), std::make_tuple(pile_material(), 0.001, 5.711)}) {
     const double mu_r = scene.interactions(0, 0).rolling;
     CHECK(std::atan(mu_r / R) * 180 / pi == Approx(degrees).margin(1e-3));
     const double l = R - resting_overlap(scene, R);

@@ -1,4 +1,5 @@
-// test_run.cpp: whole runs: the same answer for any number of threads, after a restart and from run to run; ledgers; refusals.
+// test_run.cpp: whole runs: the same answer for any number of threads, after a restart and from run to run;
+// ledgers; refusals.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -151,7 +152,9 @@ TEST_CASE("a run gives the same bits for any number of threads, and after restar
     CHECK(ledger.back()[3] > 15);
     for (const auto& row : rows_of(one.discharge)) CHECK(row[1] <= row[0]);
     const auto energies = rows_of(one.energies);
-    for (const auto& row : energies) CHECK(std::fabs(row.back()) < 0.02 * energies.front()[6]);  // residual against the potential energy at the start
+    for (const auto& row : energies)
+      CHECK(std::fabs(row.back()) <
+            0.02 * energies.front()[6]);  // residual against the potential energy at the start
   }
 }
 
@@ -161,7 +164,8 @@ TEST_CASE("a discharge may start from another run's bed, with its contact histor
   RunArguments a = arguments_for(base + "bed", 1);
   a.until = 0.15;
   CHECK(command_run(a) == exit_code::ok);
-  const Simulation bed = Simulation::resume(read_scene(base + "bed/scene.resolved.toml", {}), RunFolder(base + "bed"));
+  const Simulation bed =
+      Simulation::resume(read_scene(base + "bed/scene.resolved.toml", {}), RunFolder(base + "bed"));
   Scene next = read_scene(base + "bed/scene.resolved.toml", {"start.from=" + base + "bed"});
   const Simulation start = Simulation::begin(next, RunFolder(base + "next"));
   CHECK(state_hash(start.state()) == state_hash(bed.state()));  // histories are in the hash
@@ -182,7 +186,8 @@ TEST_CASE("a discharge may start from another run's bed, with its contact histor
 
 TEST_CASE("a folder that holds another run is refused and left alone", "[run]") {
   const ScratchFolder scratch;
-  RunArguments a = arguments_for(scratch.path() + "/taken", 1, {"stage.settle.until=0.001", "stage.discharge.until=0.001"});
+  RunArguments a =
+      arguments_for(scratch.path() + "/taken", 1, {"stage.settle.until=0.001", "stage.discharge.until=0.001"});
   CHECK(command_run(a) == exit_code::ok);
   const std::string before = read_text_file(scratch.path() + "/taken/series/energies.csv");
   CHECK_THROWS_AS(command_run(a), FileError);
@@ -194,11 +199,13 @@ TEST_CASE("a folder that holds another run is refused and left alone", "[run]") 
 TEST_CASE("a start with deep overlaps stops with a report and a crash frame", "[run]") {
   const ScratchFolder scratch;
   const std::string base = scratch.path() + "/";
-  std::ofstream(base + "state.csv") << "id,x,y,z,vx,vy,vz,wx,wy,wz,radius,material\n0,0.010,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n"
-                                       "1,0.0105,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n";
+  std::ofstream(base + "state.csv")
+      << "id,x,y,z,vx,vy,vz,wx,wy,wz,radius,material\n0,0.010,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n"
+         "1,0.0105,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n";
   RunArguments a = arguments_for(base + "crash", 1);
   std::string text = read_text_file(a.scene);
-  text.replace(text.find("sizes = "), text.find("[[stage]]") - text.find("sizes = "), "file = \"state.csv\"\ndiameter = 0.005\nmaterial = \"grain\"\n");
+  text.replace(text.find("sizes = "), text.find("[[stage]]") - text.find("sizes = "),
+               "file = \"state.csv\"\ndiameter = 0.005\nmaterial = \"grain\"\n");
   std::ofstream(a.scene) << text;
   try {
     command_run(a);

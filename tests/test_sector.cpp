@@ -22,7 +22,8 @@ std::vector<Grain> unfolded(const std::vector<Grain>& grains, int n) {
   std::vector<Grain> all;
   for (int m = 0; m < n; ++m)
     for (const Grain& g : grains)
-      all.push_back({g.radius, symmetry.turn_point(g.x, m), symmetry.turn_vector(g.v, m), symmetry.turn_vector(g.w, m), g.material});
+      all.push_back({g.radius, symmetry.turn_point(g.x, m), symmetry.turn_vector(g.v, m),
+                     symmetry.turn_vector(g.w, m), g.material});
   return all;
 }
 
@@ -32,8 +33,13 @@ std::vector<Grain> random_grains(int n, double r_min, double r_max, double heigh
   const Symmetry symmetry = Symmetry::rotation(n);
   std::vector<Grain> grains;
   for (int tries = 0; static_cast<int>(grains.size()) < count && tries < 400000; ++tries) {
-    const double r = std::sqrt(random.uniform(r_min * r_min, r_max * r_max)), phi = random.uniform(0, symmetry.angle());
-    Grain g{R * random.uniform(0.8, 1.2), {r * std::cos(phi), r * std::sin(phi), random.uniform(2 * R, height)}, {}, {}, tries % 2};
+    const double r = std::sqrt(random.uniform(r_min * r_min, r_max * r_max)),
+                 phi = random.uniform(0, symmetry.angle());
+    Grain g{R * random.uniform(0.8, 1.2),
+            {r * std::cos(phi), r * std::sin(phi), random.uniform(2 * R, height)},
+            {},
+            {},
+            tries % 2};
     bool free = true;
     for (int k = 0; k < n && free; ++k) {
       const Vec3 copy = symmetry.turn_point(g.x, k);
@@ -70,16 +76,24 @@ Scene pot(double r, double height) {
 }  // namespace
 
 TEST_CASE("ring breathing: a grain meets its own copies", "[sector][images]") {
-  struct Row { int n; double turning_radius, overlap; };
-  for (const Row& row : {Row{12, 1.9153, 8.565e-3}, Row{6, 0.9914, 8.565e-3}, Row{4, 0.7011, 8.565e-3}, Row{2, 0.4943, 1.130e-2}}) {
+  struct Row {
+    int n;
+    double turning_radius, overlap;
+  };
+  for (const Row& row :
+       {Row{12, 1.9153, 8.565e-3}, Row{6, 0.9914, 8.565e-3}, Row{4, 0.7011, 8.565e-3}, Row{2, 0.4943, 1.130e-2}}) {
     Scene s = plain_scene(1e7, 0.3, 3800);
     make_sector(s, row.n, AxisRule::images);
     const double r = R / std::sin(pi / row.n) + 0.02 * d, phi = 0.3 * 2 * pi / row.n;
     Experiment e(s, {{R, turned({r, 0, 0.1}, phi), turned({-0.1, 0, 0}, phi), {}}}, 1e-6);
     double least = r, deepest = 0;
-    e.run_until([&] { least = std::min(least, radius_of(e.x(0)));
-                      deepest = std::max(deepest, e.deepest_overlap());
-                      return radius_of(e.x(0)) > r; }, 100000);
+    e.run_until(
+        [&] {
+          least = std::min(least, radius_of(e.x(0)));
+          deepest = std::max(deepest, e.deepest_overlap());
+          return radius_of(e.x(0)) > r;
+        },
+        100000);
     CHECK(least / d == Approx(row.turning_radius).margin(1e-4));
     CHECK(deepest / d == Approx(row.overlap).epsilon(1e-3));
     CHECK(norm(e.v(0)) == Approx(0.1).epsilon(1e-4));  // energy came back
@@ -100,7 +114,9 @@ TEST_CASE("a spinning ring keeps its angular momentum with friction on", "[secto
     const double before = angular(), spin = e.w(0).z;
     e.run(3000);
     CHECK(angular() == Approx(before).epsilon(1e-12));
-    if (n > 2) CHECK(std::fabs(e.w(0).z - spin) > 0.01 * spin);  // friction did act; the two of a pair roll on each other alike
+    if (n > 2)
+      CHECK(std::fabs(e.w(0).z - spin) >
+            0.01 * spin);  // friction did act; the two of a pair roll on each other alike
   }
 }
 
@@ -118,8 +134,10 @@ TEST_CASE("unfold and compare: a sector and the full vessel with symmetric data 
       double worst = 0;
       for (int i = 0; i < count; ++i) {
         const std::size_t s = slice.slot(i);
-        const Vec3 unrolled = symmetry.turn_point(slice.state.particles.position.get(s), slice.state.particles.turns[s]);
-        for (int m = 0; m < n; ++m) worst = std::max(worst, norm(whole.x(m * count + i) - symmetry.turn_point(unrolled, m)));
+        const Vec3 unrolled =
+            symmetry.turn_point(slice.state.particles.position.get(s), slice.state.particles.turns[s]);
+        for (int m = 0; m < n; ++m)
+          worst = std::max(worst, norm(whole.x(m * count + i) - symmetry.turn_point(unrolled, m)));
       }
       return worst / d;
     };
@@ -128,17 +146,20 @@ TEST_CASE("unfold and compare: a sector and the full vessel with symmetric data 
       whole.run(100);
       slice.run(100);
       if (block == 0) CHECK(largest_difference() < 1e-12);
-      CHECK(whole.touching() == slice.touching() * n - [&] {  // a half-turn contact of a grain with itself is n/2 in the whole
-        int halves = 0;
-        for (Index k = 0; k < slice.state.contacts.rows(); ++k) {
-          const auto r = static_cast<std::size_t>(k);
-          const Index slot = slice.state.contacts.second[r], grains_here = slice.state.particles.count();
-          if (slice.state.contacts.half_overlap(r) > 0 && slot >= grains_here && 2 * slice.state.contacts.turn[r] == n &&
-              slice.state.images.owner[static_cast<std::size_t>(slot - grains_here)] == slice.state.contacts.first[r])
-            ++halves;
-        }
-        return halves * n / 2;
-      }());
+      CHECK(whole.touching() ==
+            slice.touching() * n - [&] {  // a half-turn contact of a grain with itself is n/2 in the whole
+              int halves = 0;
+              for (Index k = 0; k < slice.state.contacts.rows(); ++k) {
+                const auto r = static_cast<std::size_t>(k);
+                const Index slot = slice.state.contacts.second[r], grains_here = slice.state.particles.count();
+                if (slice.state.contacts.half_overlap(r) > 0 && slot >= grains_here &&
+                    2 * slice.state.contacts.turn[r] == n &&
+                    slice.state.images.owner[static_cast<std::size_t>(slot - grains_here)] ==
+                        slice.state.contacts.first[r])
+                  ++halves;
+              }
+              return halves * n / 2;
+            }());
       most_contacts = std::max(most_contacts, slice.touching());
     }
     CHECK(largest_difference() < 1e-5);
@@ -158,7 +179,8 @@ TEST_CASE("a frictional pair carried through a seam behaves as in free space", "
       const Vec3 centre = turned({r, 0, 0.1}, face - 0.02);
       const Vec3 along = turned({0.6, 0.8, 0.1}, face), drift = turned({0, 1.5, 0}, face);
       const double gap = 0.995 * (R + 1.3 * R) / norm(along);
-      std::vector<Grain> pair{{R, centre, drift + Vec3{0, 0, 0.05}, {5, 6, 70}}, {1.3 * R, centre + gap * along, drift, {-8, 30, 2}}};
+      std::vector<Grain> pair{{R, centre, drift + Vec3{0, 0, 0.05}, {5, 6, 70}},
+                              {1.3 * R, centre + gap * along, drift, {-8, 30, 2}}};
       if (swap) std::swap(pair[0], pair[1]);
       Experiment a(free, pair, 1e-6), b(sector, pair, 1e-6);
       const Symmetry symmetry = Symmetry::rotation(n);

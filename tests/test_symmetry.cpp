@@ -49,7 +49,7 @@ TEST_CASE("every point is turned home into the domain", "[symmetry]") {
       CHECK(phi <= s.angle() + 1e-12);
       CHECK(std::hypot(q.x, q.y) == Approx(std::hypot(p.x, p.y)).epsilon(1e-15));
     }
-    CHECK(s.turns_home({0.7, 0, 0}) == 0);              // the face phi = 0 belongs to the domain
+    CHECK(s.turns_home({0.7, 0, 0}) == 0);  // the face phi = 0 belongs to the domain
     CHECK(s.turns_home(s.turn_point({0.7, 0.0, 0}, 0)) == 0);
     CHECK(s.turns_home({0.7, -1e-9, 0}) == s.residue(1));
   }

@@ -21,16 +21,19 @@ Scene pot_of_all_sorts() {
 }
 
 /// Local minima of the distance from q to the polylines, by walking along them in small steps: distances found.
-std::vector<double> minima_by_walking(const std::vector<std::vector<Eigen::Vector2d>>& lines, const Eigen::Vector2d& q, double below) {
+std::vector<double> minima_by_walking(const std::vector<std::vector<Eigen::Vector2d>>& lines,
+                                      const Eigen::Vector2d& q, double below) {
   std::vector<double> found;
   for (const auto& line : lines) {
     std::vector<double> d;
     for (std::size_t p = 0; p + 1 < line.size(); ++p) {
       const int steps = 20000;
-      for (int m = p == 0 ? 0 : 1; m <= steps; ++m) d.push_back((line[p] + (line[p + 1] - line[p]) * (static_cast<double>(m) / steps) - q).norm());
+      for (int m = p == 0 ? 0 : 1; m <= steps; ++m)
+        d.push_back((line[p] + (line[p + 1] - line[p]) * (static_cast<double>(m) / steps) - q).norm());
     }
     for (std::size_t m = 0; m < d.size(); ++m)
-      if (d[m] < below && (m == 0 || d[m - 1] > d[m]) && (m + 1 == d.size() || d[m + 1] >= d[m])) found.push_back(d[m]);
+      if (d[m] < below && (m == 0 || d[m - 1] > d[m]) && (m + 1 == d.size() || d[m + 1] >= d[m]))
+        found.push_back(d[m]);
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -43,11 +46,13 @@ TEST_CASE("one contact for each local minimum of the distance to the walls", "[v
   const Vessel vessel(scene);
   // The walls as connected lines: the lid joins the funnel and its inner part.
   const std::vector<std::vector<Eigen::Vector2d>> lines{
-      {{0.02, -0.03}, {0.02, 0.0}, {0.06, 0.03}, {0.1, 0.03}, {0.1, 0.1}, {0.05, 0.1}, {0.03, 0.1}}, {{0.05, 0.09}, {0.05, 0.06}}};
+      {{0.02, -0.03}, {0.02, 0.0}, {0.06, 0.03}, {0.1, 0.03}, {0.1, 0.1}, {0.05, 0.1}, {0.03, 0.1}},
+      {{0.05, 0.09}, {0.05, 0.06}}};
   RandomStream random(17, 0);
   int several = 0;
   for (int trial = 0; trial < 1500; ++trial) {
-    const double r = random.uniform(0.001, 0.13), z = random.uniform(-0.05, 0.12), phi = random.uniform(0, 6), radius = random.uniform(0.004, 0.03);
+    const double r = random.uniform(0.001, 0.13), z = random.uniform(-0.05, 0.12), phi = random.uniform(0, 6),
+                 radius = random.uniform(0.004, 0.03);
     const Vec3 p{r * std::cos(phi), r * std::sin(phi), z};
     std::vector<double> found;
     for (int f = 0; f < vessel.feature_count(); ++f) {
@@ -131,11 +136,13 @@ TEST_CASE("the load on the walls is weight plus the change of momentum, at every
     Experiment e(s, grains, 2e-5);
     const auto vertical = [&] {
       double m = 0;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(e.state.particles.count()); ++i) m += e.state.particles.mass[i] * e.state.particles.velocity.z[i];
+      for (std::size_t i = 0; i < static_cast<std::size_t>(e.state.particles.count()); ++i)
+        m += e.state.particles.mass[i] * e.state.particles.velocity.z[i];
       return m;
     };
     double weight = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(e.state.particles.count()); ++i) weight += 9.81 * e.state.particles.mass[i];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(e.state.particles.count()); ++i)
+      weight += 9.81 * e.state.particles.mass[i];
     const auto load = [&] {
       double f = 0;
       for (const double z : e.state.wall_contacts.force.z) f += z;
@@ -167,7 +174,11 @@ TEST_CASE("the energy budget closes", "[energy]") {
     std::vector<Grain> grains;
     for (int layer = 0; layer < 8; ++layer)
       for (int k = 0; k < 4; ++k)
-        grains.push_back({0.0025, {0.004 + 0.004 * (k % 2) + 0.0003 * layer, 0.0035 + 0.0055 * (k / 2) + 0.0002 * layer, 0.004 + 0.0055 * layer}, {0.05, -0.02, -0.3}, {0, 30, 10}});
+        grains.push_back({0.0025,
+                          {0.004 + 0.004 * (k % 2) + 0.0003 * layer, 0.0035 + 0.0055 * (k / 2) + 0.0002 * layer,
+                           0.004 + 0.0055 * layer},
+                          {0.05, -0.02, -0.3},
+                          {0, 30, 10}});
     Experiment e(s, grains, dt);
     e.run(static_cast<int>(0.1 / dt));
     return e.residual() / (e.begin.total());
