@@ -139,8 +139,8 @@ std::vector<Eigen::Vector2d> mean_surface(const State& state, bool slot) {
   return surface;
 }
 
-/// Slope of the surface as an angle [deg]: the line through the mean surface between 10 % and 90 % of its peak,
-/// by least squares. Not known with fewer than four rings there, as on a bed with a flat surface.
+/// Slope of the surface as an angle [deg]: the line through the mean surface outside its peak, between 10 % and 90
+/// % of that height, by least squares. Not known with fewer than four rings there, as on a bed with a flat surface.
 double angle_of_repose(const State& state, bool slot) {
   const std::vector<Eigen::Vector2d> rings = mean_surface(state, slot);
   double peak = -std::numeric_limits<double>::infinity();
@@ -148,9 +148,11 @@ double angle_of_repose(const State& state, bool slot) {
   if (!std::isfinite(peak)) return not_known;
   const double base = ground(state, peak);
   std::vector<Eigen::Vector2d> slope;
+  bool outside = false;  // of the highest ring: inside it the pile of a sector may have a hollow at the axis
   for (const Eigen::Vector2d& ring : rings) {
     const double height = (ring.y() - base) / (peak - base);
-    if (height > 0.1 && height < 0.9) slope.push_back(ring);
+    if (outside && height > 0.1 && height < 0.9) slope.push_back(ring);
+    outside = outside || ring.y() == peak;
   }
   if (slope.size() < 4) return not_known;
   Eigen::Vector2d centre(0, 0);
