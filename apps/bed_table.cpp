@@ -23,12 +23,22 @@ std::size_t grain_count(const State& state) { return static_cast<std::size_t>(st
 
 double sphere_volume(double radius) { return sphere_mass(radius, 1.0); }  // m3
 
-/// Grains sorted by height. Pre: at least one grain.
+/// Lowest point of the walls [m]: what is below has left the bed and falls towards the outlet.
+double lowest_wall(const Scene& scene) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const WallDescription& wall : scene.walls)
+    for (const Eigen::Vector2d& point : wall.profile) low = std::min(low, point.y());
+  return std::isfinite(low) ? low : -std::numeric_limits<double>::infinity();
+}
+
+/// Grains of the bed (see lowest_wall) sorted by height.
 class Heights {
 public:
-  explicit Heights(const State& state) : order_(grain_count(state)) {
+  Heights(const State& state, const Scene& scene) {
     const Array<double>& z = state.particles.position.z;
-    for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
+    const double low = lowest_wall(scene);
+    for (std::size_t i = 0; i < grain_count(state); ++i)
+      if (z[i] >= low) order_.push_back(i);
     std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return z[a] < z[b]; });
   }
   /// Place in the order below which the part `share` of all grains lies.
@@ -36,6 +46,7 @@ public:
     return static_cast<std::size_t>(share * static_cast<double>(order_.size() - 1));
   }
   std::size_t grain(std::size_t place) const { return order_[place]; }
+  std::size_t count() const { return order_.size(); }
 
 private:
   std::vector<std::size_t> order_;
@@ -57,8 +68,8 @@ double cross_section(const State& state, const Scene& scene) {
 
 /// Volume of the grains between the 10 % and 70 % quantiles of height, per volume between these heights.
 double packing_fraction(const State& state, const Scene& scene) {
-  if (grain_count(state) < 2) return not_known;
-  const Heights heights(state);
+  const Heights heights(state, scene);
+  if (heights.count() < 2) return not_known;
   const std::size_t low = heights.place(0.1), high = heights.place(0.7);
   double volume = 0;
   for (std::size_t k = low; k < high; ++k) volume += sphere_volume(state.particles.radius[heights.grain(k)]);
@@ -69,23 +80,27 @@ double packing_fraction(const State& state, const Scene& scene) {
 
 /// Touching neighbours per grain, by overlap; walls do not count. A grain's contact with its own copy half a turn
 /// away is one contact seen from both ends, so it counts once; every other row counts at both of its ends.
-double coordination_number(const State& state) {
-  if (grain_count(state) == 0) return not_known;
+double coordination_number(const State& state, const Scene& scene) {
   const ContactTable& c = state.contacts;
+  const Array<double>& z = state.particles.position.z;
+  const double low = lowest_wall(scene), grains = static_cast<double>(Heights(state, scene).count());
+  if (grains == 0) return not_known;
   double ends = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(c.rows()); ++k) {
     if (!(c.half_overlap(k) > 0)) continue;
     const Index image = c.second[k] - state.particles.count();
     const bool own_copy = image >= 0 && state.images.owner[static_cast<std::size_t>(image)] == c.first[k];
-    ends += own_copy && 2 * c.turn[k] == state.symmetry.order() ? 1 : 2;
+    const auto first = static_cast<std::size_t>(c.first[k]), second = static_cast<std::size_t>(c.second[k]);
+    if (z[first] >= low) ends += 1;
+    if (z[second] >= low && !(own_copy && 2 * c.turn[k] == state.symmetry.order())) ends += 1;
   }
-  return ends / state.particles.count();
+  return ends / grains;
 }
 
 /// Height [m] below which 95 % of the grains lie, a mean radius on top.
-double bed_height(const State& state) {
-  if (grain_count(state) == 0) return not_known;
-  const Heights heights(state);
+double bed_height(const State& state, const Scene& scene) {
+  const Heights heights(state, scene);
+  if (heights.count() == 0) return not_known;
   return state.particles.position.z[heights.grain(heights.place(0.95))] + 0.5 * state.mean_diameter;
 }
 
@@ -162,7 +177,7 @@ double angle_of_repose(const State& state, bool slot) {
     along += (point - centre).x() * (point - centre).y();
     squares += (point - centre).x() * (point - centre).x();
   }
-  return std::atan(-along / squares) * 180 / numbers::pi;
+  return along < 0 ? std::atan(-along / squares) * 180 / numbers::pi : not_known;
 }
 
 [[noreturn]] void throw_at_line(const std::string& path, std::size_t line, const std::string& what) {
@@ -191,7 +206,7 @@ StageResult measure_bed(const State& state, const Scene& scene, const std::strin
   add("grains", "", count * copies);
   add("grains discharged", "", static_cast<double>(state.taken_out) * copies);
   add("packing fraction", "", packing_fraction(state, scene));
-  add("coordination number", "", coordination_number(state));
+  add("coordination number", "", coordination_number(state, scene));
   const std::vector<WallLoad> loads = wall_loads(state);
   for (int w = 0; w < state.vessel.wall_count(); ++w)
     add("load on " + state.vessel.wall(w).name, "N", 0 - loads[static_cast<std::size_t>(w)].force.z * copies);
@@ -199,7 +214,7 @@ StageResult measure_bed(const State& state, const Scene& scene, const std::strin
   for (std::size_t i = 0; i < grain_count(state); ++i) mass += state.particles.mass[i];
   add("weight of all grains", "N", mass * scene.domain.gravity.norm() * copies);
   add("kinetic energy per grain", "J", count > 0 ? mean_kinetic_energy(state) : not_known);
-  add("bed height", "m", bed_height(state));
+  add("bed height", "m", bed_height(state, scene));
   add("discharge rate", "1/s", discharge_rate * copies);
   add("angle of repose", "deg", angle_of_repose(state, slot));
   add("wall time", "s", wall_seconds);

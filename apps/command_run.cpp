@@ -16,6 +16,7 @@
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
 #include "io/provenance.hpp"
 #include "io/scene_file.hpp"
 #include "kernels/measure.hpp"
@@ -53,6 +54,22 @@ void claim_folder(const RunFolder& folder) {
     if (fs::exists(mark))
       throw FileError(folder.path() + ": holds another run (" + fs::path(mark).filename().string() +
                       "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
+}
+
+bool newest_valid_checkpoint_or_none(const RunFolder& folder) {
+  return fs::is_directory(folder.checkpoints()) && newest_valid_checkpoint(folder.checkpoints()).has_value();
+}
+
+/// Takes back what a run that never began has put into its folder, so that the folder can be used again.
+void leave_folder(const RunFolder& folder) {
+  if (newest_valid_checkpoint_or_none(folder)) return;
+  std::error_code ignored;
+  for (const std::string& file :
+       {folder.scene(), folder.resolved_scene(), folder.provenance(), folder.log(), folder.progress()})
+    fs::remove(file, ignored);
+  for (const std::string& sub :
+       {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()})
+    fs::remove_all(sub, ignored);
 }
 
 void print_timings(Simulation& run) {
@@ -111,7 +128,14 @@ int command_run(const RunArguments& arguments) {
   write_text_file_atomically(folder.scene(), scene.text);
   write_text_file_atomically(folder.resolved_scene(), resolved_scene(scene));
   write_provenance(folder.provenance(), arguments.command_line, threads);
-  Simulation run = Simulation::begin(std::move(scene), folder);
+  Simulation run = [&] {
+    try {
+      return Simulation::begin(std::move(scene), folder);
+    } catch (...) {
+      leave_folder(folder);
+      throw;
+    }
+  }();
   const RunEnd end = run.run({arguments.wall_time, arguments.until});
   return finish(run, end, folder, arguments);
 }

@@ -16,6 +16,8 @@ extern "C" void remember(int signal) {
 void catch_interrupts() {
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  std::signal(SIGHUP, remember);
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe of standard output must not end a run
 }
 bool interrupted() { return flag != 0; }
 

@@ -3,7 +3,7 @@
 
 namespace wedge {
 
-/// From now on the first SIGINT or SIGTERM is only remembered; a second one ends the program at once.
+/// From now on the first SIGINT, SIGTERM or SIGHUP is only remembered; a second one ends the program at once.
 void catch_interrupts();
 bool interrupted();
 

@@ -11,6 +11,7 @@
 #include "io/checkpoint.hpp"
 #include "io/csv.hpp"
 #include "io/frame.hpp"
+#include "io/scene_file.hpp"
 #include "kernels/measure.hpp"
 
 namespace wedge {
@@ -112,7 +113,9 @@ void Recorder::record_due(State& state, const TimeStep& step, RunMemory& memory)
   if (frame) record_frame(state, memory);
 }
 
-void Recorder::record_series(const State& state, const TimeStep& step, const RunMemory& memory) {
+void Recorder::record_series(const State& state, const TimeStep& step, RunMemory& memory) {
+  if (memory.last_row == state.time) return;
+  memory.last_row = state.time;
   const Energies e = step.energies(state);
   const EnergyLedger& l = state.energy;
   std::vector<double> row{state.time,       static_cast<double>(state.step),
@@ -165,7 +168,7 @@ void Recorder::record_frame(const State& state, RunMemory& memory) {
 void Recorder::record_checkpoint(const State& state, const RunMemory& memory) {
   require(state.departures.empty(), "departures are recorded before a checkpoint");
   for (auto* series : {&energies_, &ledger_, &discharge_, &walls_}) (*series)->sync();
-  const CheckpointExtra extra{scene_.text, read_text_file(folder_.resolved_scene()), memory.to_text()};
+  const CheckpointExtra extra{scene_.text, resolved_scene(scene_), memory.to_text()};
   write_checkpoint(checkpoint_path(folder_.checkpoints(), state.step), state, extra);
   keep_last(folder_.checkpoints(), 2);
 }

@@ -23,8 +23,8 @@ public:
 
   /// Rows and frames that are due at the state's time. Pre: between two steps.
   void record_due(State& state, const TimeStep& step, RunMemory& memory);
-  /// A row of every series now.
-  void record_series(const State& state, const TimeStep& step, const RunMemory& memory);
+  /// A row of every series now, unless this moment has one.
+  void record_series(const State& state, const TimeStep& step, RunMemory& memory);
   /// A frame now, whatever the schedule.
   void record_frame(const State& state, RunMemory& memory);
   /// Moves the departures of the state to discharge.csv.

@@ -20,6 +20,7 @@ void for_each_number(Memory& m, Visit&& visit) {
   visit("quiet_since", m.quiet_since);
   visit("quiet_out", m.quiet_out);
   visit("series_rows", m.series_rows);
+  visit("last_row", m.last_row);
   visit("regular_frames", m.regular_frames);
   visit("listed_frames", m.listed_frames);
   visit("begin_kinetic", m.begin.kinetic);

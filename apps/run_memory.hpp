@@ -18,6 +18,7 @@ struct RunMemory {
   std::int64_t stage_start_out = 0;  // grains discharged when the stage began
   double quiet_since = -1;           // s: since when the bed is quiet; negative: it is not
   std::int64_t quiet_out = 0;        // grains discharged when it became quiet
+  double last_row = -1;              // s, time of the last row of the series
   std::int64_t series_rows = 0;      // rows written on the regular grid
   std::int64_t regular_frames = 0;   // frames written on the regular grid
   std::int64_t listed_frames = 0;    // of output.at

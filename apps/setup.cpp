@@ -86,6 +86,19 @@ State make_domain(const Scene& scene) {
   return state;
 }
 
+/// Refuses a start with grains outside the widest wall: they would fall past the vessel and count as discharged.
+static void refuse_grains_outside(const State& state) {
+  const Particles& p = state.particles;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i) {
+    const Vec3 x = p.position.get(i);
+    if (!state.vessel.beside(x, 0)) continue;
+    std::ostringstream text;
+    text << "grain " << p.id[i] << " starts outside the vessel, at (" << x.x << ", " << x.y << ", " << x.z
+         << ") m. Make particles.region narrower, or correct the state file.";
+    throw SceneError(text.str());
+  }
+}
+
 State make_start(const Scene& scene) {
   State state = make_domain(scene);
   if (!scene.start_from.empty()) {
@@ -95,6 +108,7 @@ State make_start(const Scene& scene) {
   } else {
     fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
   }
+  refuse_grains_outside(state);
   describe_grains(state);
   return state;
 }

@@ -36,6 +36,7 @@ Simulation Simulation::begin(Scene scene, const RunFolder& folder) {
     s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
   s.memory_.begin = s.step_->energies(*s.state_);
   s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, std::nullopt);
+  s.save("start");  // a run killed in its first minutes can go on, and so can one whose physics fails
   return s;
 }
 
@@ -43,6 +44,9 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
   const auto newest = newest_valid_checkpoint(folder.checkpoints());
   if (!newest) throw FileError(folder.checkpoints() + ": no valid checkpoint to resume from");
   Simulation s(std::move(scene), folder);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.checkpoints()))
+    if (entry.path().extension() == ".hdf" && entry.path().string() > *newest)
+      s.line_.note(entry.path().string() + ": damaged, going back to " + *newest);
   s.state_ = std::make_unique<State>(make_domain(*s.scene_));
   const CheckpointExtra extra = read_checkpoint(*newest, *s.state_);
   s.memory_ = RunMemory::from_text(extra.run_state, *newest);
@@ -133,6 +137,8 @@ void Simulation::end_stage() {
   std::ostringstream text;
   text << stage().name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds)
        << " of wall time: " << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
+  const bool wants_rest = std::holds_alternative<UntilAtRest>(stage().until);
+  if (wants_rest && !came_to_rest()) text << "; NOT at rest: stopped by at_most";
   write_slice_svg(folder_.slice(stage().name), *state_, *scene_, stage().name);
   log("stage " + text.str());
   line_.note("stage " + text.str());
@@ -150,6 +156,12 @@ bool Simulation::stage_is_over() {
   return at_rest();
 }
 
+/// Whether the bed has been quiet for as long as the criterion asks.
+bool Simulation::came_to_rest() const {
+  return state_->particles.count() == 0 ||
+         (memory_.quiet_since >= 0 && state_->time - memory_.quiet_since >= rest_.duration);
+}
+
 /// kernels and PHYSICS know no rest: this is the run's own criterion (README, "At rest").
 bool Simulation::at_rest() {
   if (state_->particles.count() == 0) return true;
@@ -163,7 +175,7 @@ bool Simulation::at_rest() {
     memory_.quiet_out = state_->taken_out;
     return false;
   }
-  return state_->time - memory_.quiet_since >= rest_.duration;
+  return came_to_rest();
 }
 
 /// Grains per second through the outlet [1/s], of this domain: between the moments when 10 % and 90 % of the

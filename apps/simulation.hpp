@@ -51,6 +51,7 @@ private:
   void end_stage();
   bool stage_is_over();
   bool at_rest();
+  bool came_to_rest() const;
   double discharge_rate() const;
   void between_steps();
   void save(const char* what);

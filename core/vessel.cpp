@@ -109,6 +109,13 @@ double Vessel::fastest_wall() const {
   return fastest;
 }
 
+bool Vessel::beside(Vec3 p, double radius) const {
+  double widest = 0;
+  for (const WallDescription& w : walls_)
+    for (const Eigen::Vector2d& point : w.profile) widest = std::max(widest, point.x());
+  return !slot_ && widest > 0 && std::hypot(p.x, p.y) > widest + radius;
+}
+
 Vec3 Vessel::surface_velocity(int w, Vec3 p) const {
   const WallDescription& d = wall(w);
   return {-d.spin * p.y, d.spin * p.x, d.speed};

@@ -51,6 +51,9 @@ public:
   void advance(double dt);
   /// Largest |speed| of a wall [m/s].
   double fastest_wall() const;
+  /// Whether p, the centre of a grain of this radius, is outside the widest wall, where nothing holds it. False
+  /// without walls and in a slot.
+  bool beside(Vec3 p, double radius) const;
   /// Velocity [m/s] of wall w at point p.
   Vec3 surface_velocity(int w, Vec3 p) const;
 

@@ -112,6 +112,13 @@ Index mark_departures(State& state, NeighbourScratch& scratch, double outlet) {
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
     if (p.position.z[s] >= outlet) continue;
+    if (state.vessel.beside(p.position.get(s), p.radius[s])) {
+      std::ostringstream text;
+      text << "grain " << p.id[s] << " fell outside the vessel, at (" << p.position.x[s] << ", " << p.position.y[s]
+           << ", " << p.position.z[s] << ") m in step " << state.step
+           << ". Likely cause: walls that do not join, or grains that started outside.";
+      throw PhysicsError(text.str());
+    }
     if (leaving++ == 0) scratch.leaves.assign(static_cast<std::size_t>(p.count()), 0);
     scratch.leaves[s] = 1;
     Departure d;
