@@ -13,7 +13,7 @@ struct Speeds {
 constexpr double widest_margin = 0.3;  // radii: the most that a fast grain's margin may be
 constexpr double longest_list = 200;   // steps
 // Steps until the list is renewed if every grain keeps its speed: balances the work of a list, shared by the steps
-// it lasts, against the pairs that wider margins bring in. From timings of both (perf/README.md, "Margins").
+// it lasts, against the pairs that wider margins bring in. An estimate (perf/README.md, "Margins").
 constexpr double list_work_over_pair_work = 0.75;
 
 }  // namespace
