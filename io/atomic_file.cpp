@@ -78,20 +78,33 @@ std::string parent_folder(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+PartFile::~PartFile() {
+  if (committed_) return;
+  // Emptied first: somebody may hold it open, and the disk may be full.
+  if (::truncate(part_path().c_str(), 0) == 0) ::unlink(part_path().c_str());
+}
+
+void PartFile::commit() {
+  const std::string part = part_path();
+  Descriptor file(::open(part.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) throw_file_error(path_, "cannot write", errno);
+  if (::fsync(file.get()) != 0) throw_file_error(path_, "cannot write", errno);
+  if (std::rename(part.c_str(), path_.c_str()) != 0) throw_file_error(path_, "cannot write", errno);
+  committed_ = true;
+  sync_folder(parent_folder(path_));
+}
+
 void replace_file(const std::string& path, std::initializer_list<Bytes> parts) {
-  const std::string part_path = path + ".part";
-  Descriptor file(::open(part_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0) throw_file_error(path, "cannot write", errno);
-  int error = write_all(file.get(), parts);
-  if (error == 0 && ::fsync(file.get()) != 0) error = errno;
-  const int close_error = file.close();
-  if (error == 0) error = close_error;
-  if (error == 0 && std::rename(part_path.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(part_path.c_str());
-    throw_file_error(path, "cannot write", error);
+  PartFile part(path);
+  {
+    Descriptor file(::open(part.part_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) throw_file_error(path, "cannot write", errno);
+    int error = write_all(file.get(), parts);
+    const int close_error = file.close();
+    if (error == 0) error = close_error;
+    if (error != 0) throw_file_error(path, "cannot write", error);
   }
-  sync_folder(parent_folder(path));
+  part.commit();
 }
 
 void write_text_file_atomically(const std::string& path, std::string_view text) {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace wedge {
 
@@ -20,9 +21,28 @@ struct Bytes {
 /// Folder that holds `path`, "." for a bare name.
 std::string parent_folder(const std::string& path);
 
-/// Replaces (or makes) the file `path` by the parts, one after the other. Writes PATH.part, syncs and closes it,
-/// renames it, syncs the folder. Post: `path` holds the new content, or FileError was thrown and `path` is as
-/// before and PATH.part is gone.
+/// A file in the making: written under another name, PATH.part, until commit() puts it in its place.
+class PartFile {
+public:
+  explicit PartFile(std::string path) : path_(std::move(path)) {}
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+  /// Removes PATH.part unless it was committed.
+  ~PartFile();
+
+  const std::string& path() const { return path_; }
+  /// Where to write.
+  std::string part_path() const { return path_ + ".part"; }
+  /// Syncs PATH.part, renames it, syncs the folder. Throws FileError. Pre: PATH.part is written and closed.
+  void commit();
+
+private:
+  std::string path_;
+  bool committed_ = false;
+};
+
+/// Replaces (or makes) the file `path` by the parts, one after the other, by way of a PartFile. Post: `path` holds
+/// the new content, or FileError was thrown and `path` is as before and PATH.part is gone.
 void replace_file(const std::string& path, std::initializer_list<Bytes> parts);
 
 /// replace_file with a text.

@@ -43,28 +43,49 @@ Head make_head(std::uint64_t bytes, std::uint64_t hash) {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Throws FileError unless the file is a checkpoint of this version, whole and unchanged.
-void verify(const std::string& path) {
-  const File file(std::fopen(path.c_str(), "rbe"), &std::fclose);
-  if (!file) throw_file_error(path, "cannot open the checkpoint", errno);
+/// The head of a file and what follows it. A file shorter than a head leaves head_read below head_size.
+struct Content {
   Head head{};
-  const std::size_t head_read = std::fread(head.data(), 1, head.size(), file.get());
+  std::size_t head_read = 0;
   std::uint64_t bytes = 0, hash = fnv_start;
+};
+/// Reads the file through; messages name `path`. Throws FileError.
+Content read_content(const std::string& file_path, const std::string& path) {
+  const File file(std::fopen(file_path.c_str(), "rbe"), &std::fclose);
+  if (!file) throw_file_error(path, "cannot open the checkpoint", errno);
+  Content c;
+  c.head_read = std::fread(c.head.data(), 1, c.head.size(), file.get());
   std::vector<unsigned char> buffer(std::size_t{1} << 20);
   while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
-    hash = fnv1a(hash, buffer.data(), got);
-    bytes += got;
+    c.hash = fnv1a(c.hash, buffer.data(), got);
+    c.bytes += got;
   }
   if (std::ferror(file.get()) != 0) throw_file_error(path, "cannot read the checkpoint", errno);
-  if (head_read == head.size() && head == make_head(bytes, hash)) return;
-  const Head wanted = make_head(bytes, hash);
+  return c;
+}
+
+/// Writes the head of a file that is otherwise complete.
+void seal(const PartFile& part) {
+  const Content content = read_content(part.part_path(), part.path());
+  const Head head = make_head(content.bytes, content.hash);
+  File file(std::fopen(part.part_path().c_str(), "r+be"), &std::fclose);
+  if (!file || std::fwrite(head.data(), 1, head.size(), file.get()) != head.size() ||
+      std::fclose(file.release()) != 0)
+    throw_file_error(part.path(), "cannot write", errno);
+}
+
+/// Throws FileError unless the file is a checkpoint of this version, whole and unchanged.
+void verify(const std::string& path) {
+  const Content found = read_content(path, path);
+  const Head wanted = make_head(found.bytes, found.hash);
+  if (found.head_read == head_size && found.head == wanted) return;
   const auto line_end = static_cast<std::size_t>(std::strchr(wanted.data(), '\n') - wanted.data()) + 1;
-  if (head_read < head.size()) throw_file_error(path, "the checkpoint is cut short: it ends within its head");
-  if (std::memcmp(head.data(), wanted.data(), line_end) != 0) {
+  if (found.head_read < head_size) throw_file_error(path, "the checkpoint is cut short: it ends within its head");
+  if (std::memcmp(found.head.data(), wanted.data(), line_end) != 0) {
     throw_file_error(path, "is not a wedge checkpoint of version " + std::to_string(format_version));
   }
-  if (std::memcmp(head.data(), wanted.data(), line_end + std::strlen("bytes ") + 20) != 0) {
-    throw_file_error(path, "the checkpoint is cut short or damaged: it holds " + std::to_string(bytes) +
+  if (std::memcmp(found.head.data(), wanted.data(), line_end + std::strlen("bytes ") + 20) != 0) {
+    throw_file_error(path, "the checkpoint is cut short or damaged: it holds " + std::to_string(found.bytes) +
                                " bytes, not as many as its head says");
   }
   throw_file_error(path, "the checkpoint is damaged: its content does not have the checksum written in its head");
@@ -314,7 +335,8 @@ std::string checkpoint_path(const std::string& folder, std::int64_t step) {
 }
 
 void write_checkpoint(const std::string& path, const State& state, const CheckpointExtra& extra) {
-  Hdf5Writer file(path, head_size);
+  PartFile part(path);
+  Hdf5Writer file(part, head_size);
   file.attribute("/", "format", "wedge checkpoint");
   file.attribute("/", "format_version", format_version);
   file.attribute("/", "symmetry", symmetry_text(state.symmetry));
@@ -330,11 +352,9 @@ void write_checkpoint(const std::string& path, const State& state, const Checkpo
   for_each_array(state, [&](const std::string& name, const auto& array) {
     file.write(name, array.data(), Shape{array.size()});
   });
-  const Hdf5Writer::Image image = file.image();
-  const unsigned char* content = image.data + head_size;
-  const std::size_t size = image.size - head_size;
-  const Head head = make_head(size, fnv1a(fnv_start, content, size));
-  replace_file(path, {{head.data(), head.size()}, {content, size}});
+  file.close();
+  seal(part);
+  part.commit();
 }
 
 CheckpointExtra read_checkpoint(const std::string& path, State& state) {

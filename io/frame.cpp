@@ -60,7 +60,8 @@ std::vector<double> interleaved(const Vec3Array& field, std::size_t n) {
 class FrameWriter {
 public:
   FrameWriter(const std::string& path, const State& state, const FrameInfo& info, const char* format)
-      : file_(path),
+      : part_(path),
+        file_(part_),
         real_(info.precision == FramePrecision::single_precision ? NumberKind::float32 : NumberKind::float64) {
     file_.attribute("/", "format", format);
     file_.attribute("/", "format_version", format_version);
@@ -73,6 +74,10 @@ public:
   }
 
   Hdf5Writer& file() { return file_; }
+  void save() {
+    file_.close();
+    part_.commit();
+  }
 
   void field(const std::string& group, const FieldInfo& info, const Vec3Array& vectors, std::size_t n) {
     field(group, info, interleaved(vectors, n));
@@ -81,12 +86,10 @@ public:
     file_.write(group + "/" + info.name, rows.data(), Shape{rows.size() / 3, 3}, Packing::shuffle_gzip, real_);
     describe(group, info);
   }
-  void field(const std::string& group, const FieldInfo& info, const Array<double>& numbers, std::size_t n) {
-    file_.write(group + "/" + info.name, numbers.data(), Shape{n}, Packing::shuffle_gzip, real_);
-    describe(group, info);
-  }
-  void field(const std::string& group, const FieldInfo& info, const Array<std::int32_t>& numbers, std::size_t n) {
-    file_.write(group + "/" + info.name, numbers.data(), Shape{n}, Packing::shuffle_gzip);
+  template <class T>
+  void field(const std::string& group, const FieldInfo& info, const Array<T>& numbers, std::size_t n) {
+    const NumberKind stored = std::is_same_v<T, double> ? real_ : number_kind<T>();
+    file_.write(group + "/" + info.name, numbers.data(), Shape{n}, Packing::shuffle_gzip, stored);
     describe(group, info);
   }
 
@@ -127,54 +130,48 @@ private:
     file_.write(name, numbers.data(), Shape{n}, Packing::shuffle_gzip);
   }
 
+  PartFile part_;
   Hdf5Writer file_;
   NumberKind real_;
 };
 
-/// The touching rows of the contact table, with forces taken apart.
-ContactFrame touching_contacts(const State& state) {
+/// One contact as a frame shows it: the fields of ContactFrame, one value each.
+struct ContactLine {
+  std::int32_t first_id, second_id, turn;
+  Vec3 first_position, second_position, normal, normal_force, tangential_force;
+  double normal_load, tangential_load, overlap;
+};
+
+ContactLine contact_line(const State& state, std::size_t row) {
   const ContactTable& rows = state.contacts;
-  ContactFrame frame;
-  std::vector<std::size_t> touching;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(rows.rows()); ++k) {
-    if (rows.half_overlap(k) > 0) touching.push_back(k);
-  }
-  const std::size_t n = touching.size();
-  ContactFrame::for_each_field(frame, [&](const FieldInfo&, auto& field) { field.resize(n); });
-  frame.first_position.resize(n);
-  frame.second_position.resize(n);
-  for (std::size_t c = 0; c < n; ++c) {
-    const std::size_t k = touching[c];
-    const auto first = static_cast<std::size_t>(rows.first[k]);
-    const Vec3 normal = rows.normal.get(k), force = rows.force(k);
-    const double along = dot(force, normal);
-    const Vec3 tangential = force - along * normal;
-    frame.first_id[c] = state.particles.id[first];
-    frame.second_id[c] = rows.partner_id[k];
-    frame.turn[c] = rows.turn[k];
-    frame.first_position.set(c, state.particles.position.get(first));
-    frame.second_position.set(c, state.particles.position.get(static_cast<std::size_t>(rows.second[k])));
-    frame.normal.set(c, normal);
-    frame.normal_force.set(c, along * normal);
-    frame.tangential_force.set(c, tangential);
-    frame.normal_load[c] = -along;
-    frame.tangential_load[c] = norm(tangential);
-    frame.overlap[c] = 2 * rows.half_overlap(k);
-  }
-  return frame;
+  const auto first = static_cast<std::size_t>(rows.first[row]), second = static_cast<std::size_t>(rows.second[row]);
+  ContactLine c{};
+  c.first_id = state.particles.id[first];
+  c.second_id = rows.partner_id[row];
+  c.turn = rows.turn[row];
+  c.first_position = state.particles.position.get(first);
+  c.second_position = state.particles.position.get(second);
+  c.normal = rows.normal.get(row);
+  const Vec3 force = rows.force(row);
+  const double along = dot(force, c.normal);
+  c.normal_force = along * c.normal;
+  c.tangential_force = force - c.normal_force;
+  c.normal_load = -along;
+  c.tangential_load = norm(c.tangential_force);
+  c.overlap = 2 * rows.half_overlap(row);
+  return c;
 }
 
-/// End points of the contact lines: first, second, first, second, ...
-std::vector<double> line_ends(const ContactFrame& frame) {
-  std::vector<double> ends;
-  ends.reserve(6 * frame.size());
-  for (std::size_t c = 0; c < frame.size(); ++c) {
-    for (const Vec3 p : {frame.first_position.get(c), frame.second_position.get(c)}) {
-      ends.insert(ends.end(), {p.x, p.y, p.z});
-    }
+/// Rows of the contact table that touch.
+std::vector<Index> touching_rows(const ContactTable& rows) {
+  std::vector<Index> touching;
+  for (Index k = 0; k < rows.rows(); ++k) {
+    if (rows.half_overlap(static_cast<std::size_t>(k)) > 0) touching.push_back(k);
   }
-  return ends;
+  return touching;
 }
+
+void append(std::vector<double>& rows, Vec3 v) { rows.insert(rows.end(), {v.x, v.y, v.z}); }
 
 FrameHeader read_header(const Hdf5Reader& file, const std::string& format) {
   if (file.text_attribute("/", "format") != format) throw_file_error(file.path(), "is not a " + format);
@@ -222,24 +219,51 @@ void write_particle_frame(const std::string& path, const State& state, const Fra
   for_each_frame_field(p, [&](const std::string& name, const auto&) {
     if (name != "position") writer.file().link("particles/" + name, "VTKHDF/PointData/" + name);
   });
-  writer.file().save();
+  writer.save();
 }
 
 void write_contact_frame(const std::string& path, const State& state, const FrameInfo& info) {
   FrameWriter writer(path, state, info, contact_format);
-  const ContactFrame frame = touching_contacts(state);
-  const std::size_t n = frame.size();
+  const std::vector<Index> touching = touching_rows(state.contacts);
+  const std::size_t n = touching.size();
+  ContactLine contact{};
+  // Field after field, so that only one of them is in memory.
+  const auto for_each_contact = [&](auto&& use) {
+    for (const Index row : touching) {
+      contact = contact_line(state, static_cast<std::size_t>(row));
+      use();
+    }
+  };
   writer.file().group("contacts");
-  writer.field("contacts", {"ends", "m", "centres of the two grains, two rows a contact"}, line_ends(frame));
-  ContactFrame::for_each_field(frame, [&](const FieldInfo& field_info, const auto& field) {
-    writer.field("contacts", field_info, field, n);
+  {
+    std::vector<double> ends;
+    ends.reserve(6 * n);
+    for_each_contact([&] {
+      append(ends, contact.first_position);
+      append(ends, contact.second_position);
+    });
+    writer.field("contacts", {"ends", "m", "centres of the two grains, two rows a contact"}, ends);
+  }
+  ContactFrame::for_each_field(contact, [&](const FieldInfo& field_info, const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, Vec3>) {
+      std::vector<double> rows;
+      rows.reserve(3 * n);
+      for_each_contact([&] { append(rows, value); });
+      writer.field("contacts", field_info, rows);
+    } else {
+      Array<Value> numbers;
+      numbers.reserve(n);
+      for_each_contact([&] { numbers.push_back(value); });
+      writer.field("contacts", field_info, numbers, n);
+    }
   });
   writer.vtk_grid("contacts/ends", n, 2, vtk_line);
-  ContactFrame::for_each_field(frame, [&](const FieldInfo& field_info, const auto&) {
+  ContactFrame::for_each_field(contact, [&](const FieldInfo& field_info, const auto&) {
     const std::string name = field_info.name;
     writer.file().link("contacts/" + name, "VTKHDF/CellData/" + name);
   });
-  writer.file().save();
+  writer.save();
 }
 
 ParticleFrame read_particle_frame(const std::string& path) {

@@ -55,7 +55,7 @@ struct ContactFrame {
 
   std::size_t size() const { return first_id.size(); }
 
-  /// Visits every field but the two positions.
+  /// Visits every field but the two positions, also of a type that has members of these names.
   template <class Self, class Visit>
   static void for_each_field(Self& c, Visit&& visit) {
     visit(FieldInfo{"first_id", "", "id of the grain on which the forces act"}, c.first_id);

@@ -15,7 +15,6 @@
 namespace wedge {
 namespace {
 
-constexpr std::size_t memory_step = std::size_t{1} << 20;  // bytes by which a file in memory grows
 constexpr std::size_t chunk_bytes = std::size_t{1}
                                     << 20;  // upper bound of a chunk, the library's default chunk cache
 
@@ -23,7 +22,7 @@ constexpr std::size_t chunk_bytes = std::size_t{1}
 class Handle {
 public:
   Handle() = default;
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(hid_t id, herr_t (*closer)(hid_t)) : id_(id), close_(closer) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle& operator=(Handle&& other) noexcept {
     std::swap(id_, other.id_);
@@ -34,13 +33,15 @@ public:
     if (id_ >= 0 && close_ != nullptr) close_(id_);
   }
   hid_t get() const { return id_; }
+  /// Closes now; negative when the library could not write what it had kept back.
+  herr_t close() { return close_(std::exchange(id_, -1)); }
 
 private:
   hid_t id_ = -1;
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-/// What the library noted where the failure began.
+/// What the library noted where the failure began; for a failed read or write the system's own words.
 std::string library_cause() {
   std::string cause = "unknown cause";
   const auto innermost = [](unsigned depth, const H5E_error2_t* error, void* text) -> herr_t {
@@ -48,7 +49,10 @@ std::string library_cause() {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, innermost, &cause);
-  return cause;
+  const std::string mark = "error message = '";  // H5FDsec2.c
+  const std::size_t begin = cause.find(mark);
+  if (begin == std::string::npos) return cause;
+  return cause.substr(begin + mark.size(), cause.find('\'', begin + mark.size()) - begin - mark.size());
 }
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -62,7 +66,12 @@ Result check(Result result, const std::string& path, const std::string& what) {
   return result;
 }
 
-void silence_library() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// To be called before anything else of the library: no messages of its own, no clean-up at exit.
+void tame_library() {
+  static const bool once = H5dont_atexit() >= 0;
+  static_cast<void>(once);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 hid_t type_of(NumberKind kind) {
   switch (kind) {
@@ -128,6 +137,7 @@ std::string attribute_name(const std::string& object, const std::string& name) {
 }  // namespace
 
 std::string hdf5_version() {
+  tame_library();
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
   return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(release);
@@ -136,23 +146,23 @@ std::string hdf5_version() {
 // ---- writing
 
 struct Hdf5Writer::Implementation {
-  std::string path;
-  std::size_t user_block = 0;
+  std::string path;  // in messages
   Handle file;
 };
 
-Hdf5Writer::Hdf5Writer(std::string path, std::size_t user_block) : self_(std::make_unique<Implementation>()) {
-  silence_library();
-  self_->path = std::move(path);
-  self_->user_block = user_block;
+Hdf5Writer::Hdf5Writer(const PartFile& part, std::size_t user_block) : self_(std::make_unique<Implementation>()) {
+  tame_library();
+  self_->path = part.path();
+  std::FILE* probe = std::fopen(part.part_path().c_str(), "wbe");  // for the system's own word on why not
+  if (probe == nullptr) throw_file_error(self_->path, "cannot write", errno);
+  std::fclose(probe);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  check(H5Pset_fapl_core(access.get(), memory_step, false), self_->path, "cannot hold a file in memory");
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), self_->path,
         "cannot set the format");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   check(H5Pset_userblock(creation.get(), user_block), self_->path, "cannot set the user block");
-  self_->file = Handle(H5Fcreate(self_->path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
-  check(self_->file.get(), self_->path, "cannot make an HDF5 file in memory");
+  self_->file = Handle(H5Fcreate(part.part_path().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
+  check(self_->file.get(), self_->path, "cannot write");
 }
 Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
 Hdf5Writer& Hdf5Writer::operator=(Hdf5Writer&&) noexcept = default;
@@ -202,17 +212,26 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
                   values);
 }
 
+namespace {
+
+/// Fills a dataset and closes it, which may be what writes it.
+void fill(Handle dataset, hid_t memory, const void* data, const std::string& path) {
+  check(H5Dwrite(dataset.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path, "cannot write");
+  check(dataset.close(), path, "cannot write");
+}
+
+}  // namespace
+
 void Hdf5Writer::text(const std::string& name, std::string_view text) {
   const Handle type = string_type(text.size(), H5T_CSET_UTF8);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle creation = dataset_creation();
-  const Handle made(H5Dcreate2(self_->file.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                               creation.get(), H5P_DEFAULT),
-                    H5Dclose);
+  Handle made(H5Dcreate2(self_->file.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(),
+                         H5P_DEFAULT),
+              H5Dclose);
   check(made.get(), self_->path, "cannot make the dataset '" + name + "'");
   const std::string padded = text.empty() ? std::string(1, '\0') : std::string(text);
-  check(H5Dwrite(made.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), self_->path,
-        "cannot write the dataset '" + name + "'");
+  fill(std::move(made), type.get(), padded.data(), self_->path);
 }
 
 void Hdf5Writer::write_numbers(const std::string& name, const void* data, NumberKind memory, Shape shape,
@@ -229,13 +248,12 @@ void Hdf5Writer::write_numbers(const std::string& name, const void* data, Number
     H5Pset_shuffle(creation.get());
     check(H5Pset_deflate(creation.get(), 1), self_->path, "cannot compress");
   }
-  const Handle made(H5Dcreate2(self_->file.get(), name.c_str(), stored_type_of(stored), space.get(), H5P_DEFAULT,
-                               creation.get(), H5P_DEFAULT),
-                    H5Dclose);
+  Handle made(H5Dcreate2(self_->file.get(), name.c_str(), stored_type_of(stored), space.get(), H5P_DEFAULT,
+                         creation.get(), H5P_DEFAULT),
+              H5Dclose);
   check(made.get(), self_->path, "cannot make the dataset '" + name + "'");
   if (shape.size() == 0) return;
-  check(H5Dwrite(made.get(), type_of(memory), H5S_ALL, H5S_ALL, H5P_DEFAULT, data), self_->path,
-        "cannot write the dataset '" + name + "'");
+  fill(std::move(made), type_of(memory), data, self_->path);
 }
 
 void Hdf5Writer::link(const std::string& name, const std::string& alias) {
@@ -243,19 +261,9 @@ void Hdf5Writer::link(const std::string& name, const std::string& alias) {
         self_->path, "cannot link '" + alias + "' to '" + name + "'");
 }
 
-Hdf5Writer::Image Hdf5Writer::image() {
-  const hid_t file = self_->file.get();
-  check(H5Fflush(file, H5F_SCOPE_GLOBAL), self_->path, "cannot finish the file");
-  // The size leaves out the user block (HDF5 counts from its own first byte) and the slack of the memory.
-  const ssize_t size = check(H5Fget_file_image(file, nullptr, 0), self_->path, "cannot finish the file");
-  void* memory = nullptr;
-  check(H5Fget_vfd_handle(file, H5P_DEFAULT, &memory), self_->path, "cannot finish the file");
-  return {*static_cast<unsigned char**>(memory), self_->user_block + static_cast<std::size_t>(size)};
-}
-
-void Hdf5Writer::save() {
-  const Image bytes = image();
-  replace_file(self_->path, {{bytes.data, bytes.size}});
+void Hdf5Writer::close() {
+  check(H5Fflush(self_->file.get(), H5F_SCOPE_GLOBAL), self_->path, "cannot write");
+  check(self_->file.close(), self_->path, "cannot write");
 }
 
 // ---- reading
@@ -281,7 +289,7 @@ struct Hdf5Reader::Implementation {
 };
 
 Hdf5Reader::Hdf5Reader(std::string path) : self_(std::make_unique<Implementation>()) {
-  silence_library();
+  tame_library();
   self_->path = std::move(path);
   std::FILE* probe = std::fopen(self_->path.c_str(), "rbe");  // for the system's own word on why not
   if (probe == nullptr) throw_file_error(self_->path, "cannot open", errno);

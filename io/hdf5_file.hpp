@@ -1,9 +1,11 @@
 // hdf5_file.hpp: HDF5 files as wedge writes and reads them; the one place that knows the HDF5 library.
 //
-// A file being written lives in memory until save(), which hands its bytes to replace_file(): a full disk is met by
-// our own write(2), never inside the library, where a failed close leaves a file that cannot be closed. The price
-// is the memory of one (packed) file. The file format is the oldest the library can write (HDF5 1.6 reads it). The
-// library of most systems is not safe to use from several threads: use these classes from one thread at a time.
+// A file being written goes to disk dataset by dataset, so that it costs no memory, under the name that a PartFile
+// gives. The library keeps bytes back until a dataset or the file is closed: the failure of a close is a failure to
+// write. A file that could not be closed (a full disk) stays open inside the library until the program ends; the
+// library's own clean-up at exit, which would try again, is switched off. The file format is the oldest the library
+// can write (HDF5 1.6 reads it). The library of most systems is not safe to use from several threads: use these
+// classes from one thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +16,7 @@
 #include <type_traits>
 
 #include "core/array.hpp"
+#include "io/atomic_file.hpp"
 
 namespace wedge {
 
@@ -46,8 +49,9 @@ std::string hdf5_version();
 /// hold. All functions throw FileError.
 class Hdf5Writer {
 public:
-  /// `user_block`: bytes left free before the HDF5 part, 0 or a power of two from 512 on.
-  explicit Hdf5Writer(std::string path, std::size_t user_block = 0);
+  /// Makes the file part.part_path(). `user_block`: bytes left free (zero) before the HDF5 part, 0 or a power of
+  /// two from 512 on.
+  explicit Hdf5Writer(const PartFile& part, std::size_t user_block = 0);
   Hdf5Writer(Hdf5Writer&&) noexcept;
   Hdf5Writer& operator=(Hdf5Writer&&) noexcept;
   ~Hdf5Writer();
@@ -77,14 +81,8 @@ public:
   /// `alias` becomes a second name (a hard link) of the object `name`.
   void link(const std::string& name, const std::string& alias);
 
-  /// The finished bytes, user block included (its content is zero). Valid until the next call of any function.
-  struct Image {
-    const unsigned char* data;
-    std::size_t size;
-  };
-  Image image();
-  /// Writes the file through replace_file().
-  void save();
+  /// Ends the file: all bytes are with the system. Nothing may be written afterwards.
+  void close();
 
 private:
   void write_numbers(const std::string& name, const void* data, NumberKind memory, Shape shape, Packing packing,

@@ -214,12 +214,18 @@ TEST_CASE("the newest whole checkpoint is found, and old ones go") {
 TEST_CASE("a checkpoint that does not fit leaves the old one and no litter") {
   const ScratchFolder folder;
   const std::string path = folder / "c.hdf";
-  write_checkpoint(path, sample_state(), extra);
-  {
-    const FileSizeLimit limit(100000);
-    CHECK_THROWS_WITH(write_checkpoint(path, sample_state(5000), extra),
+  write_checkpoint(path, sample_state(500), extra);
+  const auto size = std::filesystem::file_size(path);
+  const std::string before = read_text_file(path);
+  const std::uintmax_t limits = 50;  // wherever in the file the disk gets full: raw data, metadata, head
+  for (std::uintmax_t part = 0; part < limits; ++part) {
+    const FileSizeLimit limit(size * part / limits);
+    CHECK_THROWS_WITH(write_checkpoint(path, sample_state(500), extra),
                       Contains("c.hdf: cannot write: File too large"));
+    CHECK(folder.files() == 1);
   }
-  CHECK(checkpoint_is_valid(path));
-  CHECK(folder.files() == 1);
+  CHECK(read_text_file(path) == before);
+  const FileSizeLimit enough(size);
+  write_checkpoint(path, sample_state(500), extra);
+  CHECK(read_text_file(path) == before);
 }
