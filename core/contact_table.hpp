@@ -29,8 +29,14 @@ struct ContactTable {
   double half_overlap(std::size_t row) const { return outcome[outcome_size * row + 6]; }
   double rolling_cap(std::size_t row) const { return outcome[outcome_size * row + 7]; }
 
+  // Rolling couples, kept only where a row has one (rolling_velocity `relative`, elastic_plastic_spring).
+  Vec3Array couple;            // N m, on `first`; the other grain feels its negative. Written by each force step
+  Vec3Array rolling_moment;    // N m, of the rolling spring, in the frame of `first`; its half step like `history`
+  Array<Index> contact_count;  // contacts of each slot's grain; scratch of each force step
+
   // The rows in which a slot is `second`: incoming[incoming_begin[s] .. incoming_begin[s+1]-1], ascending. A
-  // contact of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again.
+  // contact of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again;
+  // so is a contact of a grain pinned to the axis with a copy (axis `pin`).
   Array<Index> incoming_begin, incoming;
 
   Index rows() const { return static_cast<Index>(first.size()); }
@@ -48,6 +54,17 @@ struct ContactTable {
     visit(FieldInfo{"normal_x", "", "unit normal of the last force step"}, c.normal.x);
     visit(FieldInfo{"normal_y", "", "unit normal of the last force step"}, c.normal.y);
     visit(FieldInfo{"normal_z", "", "unit normal of the last force step"}, c.normal.z);
+  }
+
+  /// Visits what has rows() entries where rows have couples, and none elsewhere.
+  template <class Self, class Visit>
+  static void for_each_couple_field(Self& c, Visit&& visit) {
+    visit(FieldInfo{"couple_x", "N m", "rolling couple on the first grain"}, c.couple.x);
+    visit(FieldInfo{"couple_y", "N m", "rolling couple on the first grain"}, c.couple.y);
+    visit(FieldInfo{"couple_z", "N m", "rolling couple on the first grain"}, c.couple.z);
+    visit(FieldInfo{"rolling_moment_x", "N m", "moment of the rolling spring"}, c.rolling_moment.x);
+    visit(FieldInfo{"rolling_moment_y", "N m", "moment of the rolling spring"}, c.rolling_moment.y);
+    visit(FieldInfo{"rolling_moment_z", "N m", "moment of the rolling spring"}, c.rolling_moment.z);
   }
 
   void resize(Index rows) {
@@ -73,6 +90,7 @@ struct WallContactTable {
   Vec3Array force;               // N, on the grain
   Vec3Array torque;              // N m, on the grain
   Array<double> overlap;         // m
+  Vec3Array rolling_moment;      // N m, of the rolling spring
 
   Index rows() const { return static_cast<Index>(feature.size()); }
 
@@ -93,6 +111,9 @@ struct WallContactTable {
     visit(FieldInfo{"torque_y", "N m", "torque on the grain"}, c.torque.y);
     visit(FieldInfo{"torque_z", "N m", "torque on the grain"}, c.torque.z);
     visit(FieldInfo{"overlap", "m", "overlap"}, c.overlap);
+    visit(FieldInfo{"rolling_moment_x", "N m", "moment of the rolling spring"}, c.rolling_moment.x);
+    visit(FieldInfo{"rolling_moment_y", "N m", "moment of the rolling spring"}, c.rolling_moment.y);
+    visit(FieldInfo{"rolling_moment_z", "N m", "moment of the rolling spring"}, c.rolling_moment.z);
   }
   void resize(Index rows) {
     for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(rows)); });

@@ -17,7 +17,16 @@ namespace wedge {
 
 enum class DomainKind { full, sector, slot };
 enum class Sides { periodic, rigid, frictionless };
-enum class AxisRule { clamp, images };
+/// What happens at the axis of a sector (PHYSICS, section 3).
+enum class AxisRule {
+  clamp,   // a grain that reaches the axis loses its velocity towards it (Yang et al. 2014)
+  images,  // every copy acts, a grain's own copies included: exact symmetry
+  pin,     // a grain on the axis stays there for good and meets all copies of its neighbours (Cui et al. 2007)
+  line,    // a rigid, frictional line along the axis
+  hollow   // an inner cylinder cuts the axis out; every copy acts
+};
+/// Does a grain meet its own copies?
+constexpr bool meets_itself(AxisRule axis) { return axis == AxisRule::images || axis == AxisRule::hollow; }
 
 struct Domain {
   DomainKind kind = DomainKind::full;
@@ -25,6 +34,8 @@ struct Domain {
   double slot_width = 0;  // m, slot only, along y
   Sides sides = Sides::periodic;
   AxisRule axis = AxisRule::clamp;
+  double inner_radius = 0;               // m: of the inner cylinder, hollow only
+  int axis_material = 0;                 // of the line or the inner cylinder
   Eigen::Vector3d gravity{0, 0, -9.81};  // m/s2
   std::optional<double> outlet_height;   // m: a grain whose centre falls below counts as discharged
 };
@@ -41,13 +52,21 @@ struct WallDescription {
 };
 
 enum class ContactLaw { mindlin_deresiewicz, hertz_mindlin, linear };
-enum class RollingModel { none, constant_torque };
-enum class Tension { full, none };  // may the total normal force pull at separation?
+enum class RollingModel { none, constant_torque, elastic_plastic_spring };
+enum class RollingVelocity {
+  own,
+  relative
+};                                      // what a constant torque acts against: a grain's own spin or the pair's
+enum class Tension { full, none };      // may the total normal force pull at separation?
+enum class Coulomb { printed, total };  // is elastic plus viscous tangential force limited to mu_s |f_cn|?
 
 struct ContactModel {
   ContactLaw law = ContactLaw::mindlin_deresiewicz;
   RollingModel rolling = RollingModel::constant_torque;
+  RollingVelocity rolling_velocity = RollingVelocity::own;
+  double rolling_damping = 0.3;  // ratio of critical, of the rolling spring
   Tension tension = Tension::full;
+  Coulomb coulomb = Coulomb::printed;
   // linear only: k_n, or the contact time from which it follows; k_t = tangential_ratio * k_n
   double normal_stiffness = 0;  // N/m
   double contact_time = 0;      // s

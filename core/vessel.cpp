@@ -22,6 +22,7 @@ double arc_length(const WallFeature& segment, const Eigen::Vector2d& q) {
 Vessel::Vessel(const Scene& scene) : slot_(scene.domain.kind == DomainKind::slot), walls_(scene.walls) {
   for (int w = 0; w < wall_count(); ++w) add_profile(w);
   join_edges();
+  add_core(scene.domain);
   frictionless_from_ = wall_count();
   if (scene.domain.kind != DomainKind::full && scene.domain.sides != Sides::periodic) {
     add_side_planes(scene.domain);
@@ -92,6 +93,23 @@ void Vessel::add_side_planes(const Domain& domain) {
   }
 }
 
+/// The line or the inner cylinder that the axis rule puts in. A full vessel has the cylinder too, so that it can be
+/// compared with its sectors; a line stands for what only a sector lacks.
+void Vessel::add_core(const Domain& domain) {
+  const bool line = domain.axis == AxisRule::line && domain.kind == DomainKind::sector;
+  const bool cylinder = domain.axis == AxisRule::hollow && domain.kind != DomainKind::slot;
+  if (!line && !cylinder) return;
+  WallDescription wall;
+  wall.name = line ? "axis line" : "inner cylinder";
+  wall.material = domain.axis_material;
+  WallFeature core;
+  core.kind = WallFeature::Kind::core;
+  core.wall = wall_count();
+  core.core_radius = line ? 0.0 : domain.inner_radius;
+  walls_.push_back(wall);
+  features_.push_back(core);
+}
+
 int Vessel::wall_index(const std::string& name) const {
   for (int w = 0; w < wall_count(); ++w)
     if (wall(w).name == name) return w;
@@ -111,6 +129,8 @@ double Vessel::fastest_wall() const {
 
 bool Vessel::beside(Vec3 p, double radius) const {
   double widest = 0;
+  for (const WallFeature& f : features_)
+    if (f.kind == WallFeature::Kind::core && std::hypot(p.x, p.y) < f.core_radius - radius) return true;
   for (const WallDescription& w : walls_)
     for (const Eigen::Vector2d& point : w.profile) widest = std::max(widest, point.x());
   return !slot_ && widest > 0 && std::hypot(p.x, p.y) > widest + radius;
@@ -138,6 +158,13 @@ WallProximity Vessel::proximity(int f, Vec3 p) const {
     const double height = dot(p, x.plane_normal) - x.plane_offset;
     result.distance = std::abs(height);
     result.normal = height < 0 ? x.plane_normal : -x.plane_normal;
+    result.minimum = true;
+    return result;
+  }
+  if (x.kind == WallFeature::Kind::core) {
+    const double r = std::hypot(p.x, p.y), beyond = r - x.core_radius;
+    result.distance = std::abs(beyond);
+    if (r > 0) result.normal = (beyond < 0 ? 1 / r : -1 / r) * Vec3{p.x, p.y, 0};
     result.minimum = true;
     return result;
   }

@@ -1,5 +1,5 @@
 // vessel.hpp: the walls as a flat list of features: segments (cylinder, cone, disc, annulus), circular edges,
-// planes.
+// planes, and an endless cylinder around the axis.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace wedge {
 
 /// One piece of wall. In the half plane (u, z), u is the distance r from the axis, or x in a slot.
 struct WallFeature {
-  enum class Kind { segment, edge, plane };
+  enum class Kind { segment, edge, plane, core };
   Kind kind = Kind::segment;
   int wall = 0;                     // index of the wall it belongs to
   Eigen::Vector2d start{0, 0};      // m, segment: first end; edge: the point
@@ -23,6 +23,7 @@ struct WallFeature {
   std::vector<int> neighbours;      // features that meet this one: edges of a segment, segments of an edge
   Vec3 plane_normal;                // plane through the axis (or y = const): unit vector into the domain
   double plane_offset = 0;          // m: plane is dot(x, plane_normal) = plane_offset
+  double core_radius = 0;           // m: endless cylinder around z; 0: the axis itself as a line
 };
 
 /// Where a wall feature is nearest to a point.
@@ -51,8 +52,8 @@ public:
   void advance(double dt);
   /// Largest |speed| of a wall [m/s].
   double fastest_wall() const;
-  /// Whether p, the centre of a grain of this radius, is outside the widest wall, where nothing holds it. False
-  /// without walls and in a slot.
+  /// Whether p, the centre of a grain of this radius, is outside the widest wall, where nothing holds it, or within
+  /// the inner cylinder. False without walls and in a slot.
   bool beside(Vec3 p, double radius) const;
   /// Velocity [m/s] of wall w at point p.
   Vec3 surface_velocity(int w, Vec3 p) const;
@@ -67,6 +68,7 @@ public:
 private:
   void add_profile(int w);
   void add_side_planes(const Domain& domain);
+  void add_core(const Domain& domain);
   void join_edges();
 
   bool slot_ = false;

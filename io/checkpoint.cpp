@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
 constexpr std::string_view file_prefix = "checkpoint_", file_suffix = ".hdf", part_suffix = ".hdf.part";
 using Head = std::array<char, head_size>;
@@ -102,6 +102,8 @@ void for_each_array(Self& s, Visit&& visit) {
   visit("contacts/incoming_begin", s.contacts.incoming_begin);
   visit("contacts/incoming", s.contacts.incoming);
   ContactTable::for_each_field(
+      s.contacts, [&](const FieldInfo& info, auto& field) { visit(std::string("contacts/") + info.name, field); });
+  ContactTable::for_each_couple_field(
       s.contacts, [&](const FieldInfo& info, auto& field) { visit(std::string("contacts/") + info.name, field); });
   visit("contacts/outcome", s.contacts.outcome);
   visit("wall_contacts/grain", s.wall_contacts.grain);

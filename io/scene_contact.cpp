@@ -84,8 +84,16 @@ void read_model(TableReader& t, ContactModel& model) {
   model.law = t.choice("law", law_names).value_or(model.law);
   model.rolling = t.choice("rolling", rolling_names).value_or(model.rolling);
   model.tension = t.choice("tension", tension_names).value_or(model.tension);
-  (void)t.choice("rolling_velocity", rolling_velocity_names);
-  (void)t.choice("coulomb", coulomb_names);
+  model.rolling_velocity = t.choice("rolling_velocity", rolling_velocity_names).value_or(model.rolling_velocity);
+  if (model.rolling_velocity == RollingVelocity::relative && model.rolling != RollingModel::constant_torque)
+    t.error("rolling_velocity", "'rolling_velocity' has a meaning for rolling = \"constant_torque\" only",
+            "remove it");
+  model.rolling_damping = t.number("rolling_damping", Quantity::not_negative("a damping ratio, such as 0.3"))
+                              .value_or(model.rolling_damping);
+  if (t.has("rolling_damping") && model.rolling != RollingModel::elastic_plastic_spring)
+    t.error("rolling_damping", "'rolling_damping' has a meaning for rolling = \"elastic_plastic_spring\" only",
+            "remove it");
+  model.coulomb = t.choice("coulomb", coulomb_names).value_or(model.coulomb);
   model.normal_stiffness =
       t.number("stiffness", Quantity::positive("a normal stiffness in N/m, such as 1e4")).value_or(0);
   model.contact_time =

@@ -33,17 +33,25 @@ inline const Names<DomainKind> domain_kind_names{
     {{"full", DomainKind::full}, {"sector", DomainKind::sector}, {"slot", DomainKind::slot}}, {}};
 inline const Names<Sides> sides_names{
     {{"periodic", Sides::periodic}, {"rigid", Sides::rigid}, {"frictionless", Sides::frictionless}}, {}};
-inline const Names<AxisRule> axis_names{{{"clamp", AxisRule::clamp}, {"images", AxisRule::images}},
-                                        {"core", "pin", "line", "hollow"}};
+inline const Names<AxisRule> axis_names{{{"clamp", AxisRule::clamp},
+                                         {"images", AxisRule::images},
+                                         {"pin", AxisRule::pin},
+                                         {"line", AxisRule::line},
+                                         {"hollow", AxisRule::hollow}},
+                                        {"core"}};
 inline const Names<ContactLaw> law_names{{{"mindlin_deresiewicz", ContactLaw::mindlin_deresiewicz},
                                           {"hertz_mindlin", ContactLaw::hertz_mindlin},
                                           {"linear", ContactLaw::linear}},
                                          {}};
 inline const Names<RollingModel> rolling_names{
-    {{"none", RollingModel::none}, {"constant_torque", RollingModel::constant_torque}}, {"elastic_plastic_spring"}};
+    {{"none", RollingModel::none},
+     {"constant_torque", RollingModel::constant_torque},
+     {"elastic_plastic_spring", RollingModel::elastic_plastic_spring}},
+    {}};
 inline const Names<Tension> tension_names{{{"full", Tension::full}, {"none", Tension::none}}, {}};
-inline const Names<OnlyChoice> rolling_velocity_names{{{"own", OnlyChoice::only}}, {"relative"}};
-inline const Names<OnlyChoice> coulomb_names{{{"printed", OnlyChoice::only}}, {"total"}};
+inline const Names<RollingVelocity> rolling_velocity_names{
+    {{"own", RollingVelocity::own}, {"relative", RollingVelocity::relative}}, {}};
+inline const Names<Coulomb> coulomb_names{{{"printed", Coulomb::printed}, {"total", Coulomb::total}}, {}};
 inline const Names<OnlyChoice> run_precision_names{{{"double", OnlyChoice::only}}, {"mixed"}};
 inline const Names<FramePrecision> frame_precision_names{
     {{"single", FramePrecision::single_precision}, {"double", FramePrecision::double_precision}}, {}};

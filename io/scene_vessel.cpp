@@ -54,6 +54,30 @@ void read_gravity(TableReader& t, Domain& domain) {
             "write gravity = [0, 0, " + plain_number(domain.gravity.z()) + "], or use angle = 360");
 }
 
+/// The only material grains are made of; nothing when there are several.
+std::optional<int> only_grain_material(const Scene& scene) {
+  const std::set<int> grains = grain_materials(scene.particles);
+  if (grains.size() != 1 || scene.materials.empty()) return std::nullopt;
+  return *grains.begin();
+}
+
+/// axis, and what a line or an inner cylinder is made of.
+void read_axis(TableReader& t, const Scene& scene, Domain& domain) {
+  domain.axis = t.choice("axis", axis_names).value_or(domain.axis);
+  const Quantity radius = Quantity::positive("the radius of the inner cylinder, such as 0.02 or \"10 d\"");
+  const bool hollow = domain.axis == AxisRule::hollow, solid = hollow || domain.axis == AxisRule::line;
+  if (hollow && domain.kind == DomainKind::slot) t.error("axis", "a slot has no axis to cut out", "remove 'axis'");
+  if (hollow && !t.has("inner_radius")) t.missing("inner_radius", radius.meaning);
+  if (!hollow && t.has("inner_radius"))
+    t.error("inner_radius", "only the axis 'hollow' has an inner radius", "write axis = \"hollow\", or remove it");
+  domain.inner_radius = t.length("inner_radius", radius).value_or(0);
+  if (solid)
+    domain.axis_material = read_material(t, scene, "axis_material", only_grain_material(scene)).value_or(0);
+  if (!solid && t.has("axis_material"))
+    t.error("axis_material", "the axis '" + axis_names.of(domain.axis) + "' is made of nothing",
+            "write axis = \"line\" or \"hollow\", or remove it");
+}
+
 std::vector<Eigen::Vector2d> read_profile(TableReader& t, bool slot) {
   const std::string example =
       slot ? "write profile = [[x, z], [x, z], ...]" : "write profile = [[r, z], [r, z], ...]";
@@ -97,7 +121,7 @@ void read_domain(SceneReading& reading, const toml::table& root, Scene& scene) {
   Domain& domain = scene.domain;
   read_domain_kind(t, domain);
   domain.sides = t.choice("sides", sides_names).value_or(domain.sides);
-  domain.axis = t.choice("axis", axis_names).value_or(domain.axis);
+  read_axis(t, scene, domain);
   read_gravity(t, domain);
   if (const toml::table* table = t.table("outlet")) {
     TableReader outlet(reading, table, "domain.outlet", "'outlet'");
@@ -113,9 +137,7 @@ void read_walls(SceneReading& reading, const toml::table& root, Scene& scene) {
   const toml::array* list = open_tables(reading, root, "wall");
   if (!list) return;
   const bool slot = scene.domain.kind == DomainKind::slot;
-  const std::set<int> grains = grain_materials(scene.particles);
-  const std::optional<int> grain_material =
-      grains.size() == 1 && !scene.materials.empty() ? std::optional<int>(*grains.begin()) : std::nullopt;
+  const std::optional<int> grain_material = only_grain_material(scene);
   std::set<std::string> names;
   for (const toml::node& entry : *list) {
     const std::string number = std::to_string(scene.walls.size());

@@ -59,7 +59,8 @@ private:
   std::string text_;
 };
 
-void write_domain(Writer& w, const Domain& domain) {
+void write_domain(Writer& w, const Scene& scene) {
+  const Domain& domain = scene.domain;
   w.table("[domain]");
   w.line("kind", quoted(domain_kind_names.of(domain.kind)));
   if (domain.kind == DomainKind::slot)
@@ -68,6 +69,9 @@ void write_domain(Writer& w, const Domain& domain) {
     w.line("angle", number(360.0 / domain.order));
   w.line("sides", quoted(sides_names.of(domain.sides)));
   w.line("axis", quoted(axis_names.of(domain.axis)));
+  if (domain.axis == AxisRule::hollow) w.line("inner_radius", number(domain.inner_radius));
+  if (domain.axis == AxisRule::hollow || domain.axis == AxisRule::line)
+    w.line("axis_material", quoted(scene.materials[static_cast<std::size_t>(domain.axis_material)].name));
   w.line("gravity", "[" + number(domain.gravity.x()) + ", " + number(domain.gravity.y()) + ", " +
                         number(domain.gravity.z()) + "]");
   if (domain.outlet_height) w.line("outlet", "{ z = " + number(*domain.outlet_height) + " }");
@@ -98,9 +102,12 @@ void write_contact(Writer& w, const Scene& scene) {
   w.table("[contact]");
   w.line("law", quoted(law_names.of(contact.law)));
   w.line("rolling", quoted(rolling_names.of(contact.rolling)));
-  w.line("rolling_velocity", quoted(rolling_velocity_names.of(OnlyChoice::only)));
+  if (contact.rolling == RollingModel::constant_torque)
+    w.line("rolling_velocity", quoted(rolling_velocity_names.of(contact.rolling_velocity)));
+  if (contact.rolling == RollingModel::elastic_plastic_spring)
+    w.line("rolling_damping", number(contact.rolling_damping));
   w.line("tension", quoted(tension_names.of(contact.tension)));
-  w.line("coulomb", quoted(coulomb_names.of(OnlyChoice::only)));
+  w.line("coulomb", quoted(coulomb_names.of(contact.coulomb)));
   if (contact.law == ContactLaw::linear) {
     if (contact.normal_stiffness > 0) w.line("stiffness", number(contact.normal_stiffness));
     if (contact.contact_time > 0) w.line("contact_time", number(contact.contact_time));
@@ -210,7 +217,7 @@ void write_settings(Writer& w, const Scene& scene) {
 
 std::string resolved_scene(const Scene& scene) {
   Writer w;
-  write_domain(w, scene.domain);
+  write_domain(w, scene);
   write_walls(w, scene);
   write_contact(w, scene);
   write_particles(w, scene);

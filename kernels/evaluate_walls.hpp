@@ -35,8 +35,8 @@ struct WallLosses {
 template <class Law, Friction friction>
 class WallRows {
 public:
-  WallRows(const WallMix<Law>& mix, State& state, double dt)
-      : mix_(mix), state_(state), c_(state.wall_contacts), dt_(dt) {}
+  WallRows(const WallMix<Law>& mix, State& state, double dt, double rolling_damping)
+      : mix_(mix), state_(state), c_(state.wall_contacts), dt_(dt), rolling_damping_(rolling_damping) {}
 
   void evaluate(Index i, Index begin, Index end, WallLosses& losses) const {
     for (Index k = begin; k < end; ++k) meet(i, static_cast<std::size_t>(k));
@@ -72,6 +72,7 @@ private:
       if (c_.touching[o] != left || !(beside(c_.feature[o]) || shares_edge(c_.feature[o], c_.feature[k]))) continue;
       c_.history.set(k, c_.history.get(o));
       c_.normal.set(k, c_.normal.get(o));
+      c_.rolling_moment.set(k, c_.rolling_moment.get(o));
       return;
     }
   }
@@ -95,6 +96,7 @@ private:
       c_.history.set(k, {});
       c_.force.set(k, {});
       c_.torque.set(k, {});
+      c_.rolling_moment.set(k, {});
       return;
     }
     const int wall = state_.vessel.carrier(c_.feature[k]);
@@ -130,26 +132,55 @@ private:
       losses.contact.sliding += out.sliding_loss;
     }
     if constexpr (friction == Friction::rolling) p.rolling_cap[s] += coefficients.rolling * std::fabs(out.normal);
+    if constexpr (has_couples(friction)) add_couple(i, k, coefficients.rolling, out, before, losses);
+  }
+
+  /// Rolling couple of grain i on the wall of row k, added to the torque. The wall has no inertia to share.
+  void add_couple(Index i, std::size_t k, double rolling, const ContactResponse& response, Vec3 before,
+                  WallLosses& losses) const {
+    Particles& p = state_.particles;
+    const auto s = static_cast<std::size_t>(i);
+    const Vec3 n = c_.normal.get(k), w = p.angular_velocity_seen.get(s);
+    const Vec3 wall_spin{0, 0, state_.vessel.wall(state_.vessel.carrier(c_.feature[k])).spin};
+    RollingInput in{
+        w - wall_spin,   n, std::fabs(response.normal), response.elastic_normal / c_.overlap[k], rolling, 0,
+        rolling_damping_};
+    Vec3 couple;
+    if constexpr (friction == Friction::relative) {
+      in.inertia = sphere_inertia(p.mass[s], p.radius[s]) / state_.contacts.contact_count[s];
+      couple = relative_couple(in, dt_);
+    } else {
+      in.inertia = rocking_inertia(p.mass[s], p.radius[s]);
+      const Vec3 followed = follow_normal(c_.rolling_moment.get(k), before, n);
+      const RollingSpring spring =
+          rolling_spring(in, spin_about_normal(followed, n, 0.25 * dt_ * dot(w + wall_spin, n)), dt_);
+      couple = spring.couple;
+      c_.rolling_moment.set(k, spring.moment);
+    }
+    c_.torque.set(k, c_.torque.get(k) + couple);
+    p.torque.set(s, p.torque.get(s) + couple);
+    losses.contact.rolling -= dt_ * dot(couple, in.spin);
+    losses.wall_work += dt_ * dot(couple, wall_spin);
   }
 
   const WallMix<Law>& mix_;
   State& state_;
   WallContactTable& c_;
-  double dt_;
+  double dt_, rolling_damping_;
 };
 
 /// Pre: reduce_forces and fold_images ran; dt as in evaluate_contacts.
 /// Post: wall forces are in the table and added to force, torque and rolling_cap of the grains.
 /// Throws PhysicsError when a grain's centre has gone through a wall.
 template <class Law, Friction friction>
-void evaluate_walls(const WallMix<Law>& mix, State& state, double dt) {
+void evaluate_walls(const WallMix<Law>& mix, State& state, double dt, double rolling_damping) {
   const WallContactTable& c = state.wall_contacts;
   const auto grains = static_cast<Index>(c.grain.size());
   const WallLosses sum = reduce_blocks(
       grains, WallLosses{},
       [&](Index begin, Index end) {
         WallLosses losses;
-        const WallRows<Law, friction> rows(mix, state, dt);
+        const WallRows<Law, friction> rows(mix, state, dt, rolling_damping);
         for (Index g = begin; g < end; ++g) {
           const auto s = static_cast<std::size_t>(g);
           rows.evaluate(c.grain[s], c.begin[s], c.begin[s + 1], losses);
@@ -161,6 +192,7 @@ void evaluate_walls(const WallMix<Law>& mix, State& state, double dt) {
         a.contact.tangential_damping += b.contact.tangential_damping;
         a.contact.sliding += b.contact.sliding;
         a.contact.tangential_work += b.contact.tangential_work;
+        a.contact.rolling += b.contact.rolling;
         a.wall_work += b.wall_work;
         a.crossed = std::max(a.crossed, b.crossed);
         return a;
@@ -169,6 +201,7 @@ void evaluate_walls(const WallMix<Law>& mix, State& state, double dt) {
   state.energy.tangential_damping += sum.contact.tangential_damping;
   state.energy.sliding += sum.contact.sliding;
   state.energy.tangential_work += sum.contact.tangential_work;
+  state.energy.rolling += sum.contact.rolling;
   state.energy.wall_work += sum.wall_work;
   if (sum.crossed >= 0) {
     const auto s = static_cast<std::size_t>(sum.crossed);

@@ -80,7 +80,7 @@ public:
       if (k == 0 || symmetry.distance_to_domain(x, k) > body.radius + widest_) continue;
       const Vec3 copy = symmetry.turn_point(x, k);
       if (!free_at(copy, body.radius)) return false;
-      if (scene_.domain.axis == AxisRule::images && norm(copy - x) < 2 * body.radius) return false;
+      if (meets_itself(scene_.domain.axis) && norm(copy - x) < 2 * body.radius) return false;
     }
     return true;
   }
@@ -119,7 +119,9 @@ private:
 Vec3 draw_place(const Scene& scene, const RandomFill& fill, double radius, RandomStream& random) {
   const double a = random.uniform(), b = random.uniform(),
                z = random.uniform(fill.z_low + radius, fill.z_high - radius);
-  const double low = fill.r_low + (fill.r_low > 0 || scene.domain.kind == DomainKind::slot ? radius : 0),
+  const double inner =
+      std::max(fill.r_low, scene.domain.axis == AxisRule::hollow ? scene.domain.inner_radius : 0.0);
+  const double low = inner + (inner > 0 || scene.domain.kind == DomainKind::slot ? radius : 0),
                high = fill.r_high - radius;
   if (scene.domain.kind == DomainKind::slot) return {low + a * (high - low), b * scene.domain.slot_width, z};
   const double r = std::sqrt(low * low + a * (high * high - low * low)), phi = b * 2 * pi / scene.domain.order;

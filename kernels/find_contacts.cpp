@@ -5,6 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "core/require.hpp"
+#include "kernels/integrate.hpp"
 #include "kernels/neighbours.hpp"
 
 namespace wedge {
@@ -34,11 +35,7 @@ struct Found {
 class PairSearch {
 public:
   PairSearch(const State& state, const NeighbourScratch& scratch, AxisRule axis)
-      : p_(state.particles),
-        images_(state.images),
-        s_(scratch),
-        n_(state.particles.count()),
-        meets_itself_(axis == AxisRule::images) {}
+      : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()), axis_(axis) {}
 
   void around(Index i, Found& found) const {
     const CellGrid& g = s_.grid;
@@ -67,14 +64,22 @@ private:
         for (Index q = s_.image_begin[at(cell + column_low)]; q < s_.image_begin[at(cell + column_high) + 1]; ++q) {
           const Index m = s_.image_order[at(q)];
           const Index owner = images_.owner[at(m)];
-          // One side computes a seam pair: the grain with the smaller id; a grain meets each of its own copies
-          // k and -k once, at the positive turn.
-          const bool ours =
-              p_.id[at(owner)] > p_.id[at(i)] || (meets_itself_ && owner == i && images_.turn[at(m)] > 0);
-          if (ours) consider(i, owner, n_ + m, x, found);
+          if (ours(i, owner, images_.turn[at(m)])) consider(i, owner, n_ + m, x, found);
         }
       }
     }
+  }
+
+  /// Is the pair of grain i and the copy of `owner` at this turn computed, and from the side of i? One side
+  /// computes a seam pair: the grain with the smaller id; a grain meets each of its own copies k and -k once, at
+  /// the positive turn. A grain pinned to the axis meets every copy, and they do not meet it.
+  bool ours(Index i, Index owner, int turn) const {
+    if (axis_ == AxisRule::pin) {
+      if (on_axis(p_.position.x[at(i)], p_.position.y[at(i)], p_.radius[at(i)])) return true;
+      if (turn != 1 && turn != -1) return false;
+    }
+    if (owner == i) return meets_itself(axis_) && turn > 0;
+    return p_.id[at(owner)] > p_.id[at(i)];
   }
 
   void consider(Index i, Index owner, Index slot, Vec3 x, Found& found) const {
@@ -95,7 +100,7 @@ private:
   const ImageMap& images_;
   const NeighbourScratch& s_;
   Index n_;
-  bool meets_itself_;
+  AxisRule axis_;
 };
 
 /// Places images in the cells of the grid: a list of images per cell, in image order.
@@ -128,6 +133,8 @@ void set_aside(const ContactTable& c, NeighbourScratch& s) {
   for (Array<double>* field :
        {&s.old_history.x, &s.old_history.y, &s.old_history.z, &s.old_normal.x, &s.old_normal.y, &s.old_normal.z})
     resize_with_room(*field, rows);
+  const bool moments = c.rolling_moment.size() == at(c.rows());
+  s.old_rolling_moment.resize(moments ? at(rows) : 0);
   resize_with_room(s.old_partner, rows);
   resize_with_room(s.old_turn, rows);
   for_each(grains, [&](Index i) {
@@ -138,6 +145,7 @@ void set_aside(const ContactTable& c, NeighbourScratch& s) {
       s.old_turn[to] = c.turn[k];
       s.old_history.set(to, c.history.get(k));
       s.old_normal.set(to, c.normal.get(k));
+      if (moments) s.old_rolling_moment.set(to, c.rolling_moment.get(k));
       ++to;
     }
   });
@@ -172,7 +180,7 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
   const Particles& p = state.particles;
   ContactTable& c = state.contacts;
   const Index n = p.count();
-  const bool has_old = s.old_row_begin.back() > 0;
+  const bool has_old = s.old_row_begin.back() > 0, had_moments = s.old_rolling_moment.size() > 0;
   for (Index m = 0; m < count; ++m) {
     const std::size_t k = at(begin + m);
     const Index slot = seconds[m];
@@ -182,37 +190,43 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
     c.second[k] = slot;
     c.partner_id[k] = p.id[at(owner)];
     c.turn[k] = image ? state.images.turn[at(slot - n)] : 0;
-    Vec3 history, normal;
+    Vec3 history, normal, moment;
     if (has_old) {
       const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], c.partner_id[k], c.turn[k], s.wrap[at(i)],
                                 s.wrap[at(owner)]);
       if (old >= 0) {
         history = state.symmetry.turn_vector(s.old_history.get(at(old)), s.wrap[at(i)]);
         normal = state.symmetry.turn_vector(s.old_normal.get(at(old)), s.wrap[at(i)]);
+        if (had_moments) moment = state.symmetry.turn_vector(s.old_rolling_moment.get(at(old)), s.wrap[at(i)]);
       }
     }
     c.history.set(k, history);
     c.normal.set(k, normal);
+    if (c.rolling_moment.size() > 0) c.rolling_moment.set(k, moment);
   }
 }
 
 /// Lists for each slot the rows in which it is `second`.
-void index_incoming(State& state) {
+void index_incoming(State& state, AxisRule axis) {
   ContactTable& c = state.contacts;
   const Index n = state.particles.count();
   const auto slots = at(n + state.images.count());
   const int order = state.symmetry.order();
-  const auto own_reaction = [&](Index k) {  // a grain and its own copy half a turn away: the reaction is the action
-    return c.second[at(k)] >= n && 2 * c.turn[at(k)] == order &&
-           state.images.owner[at(c.second[at(k)] - n)] == c.first[at(k)];
+  const Particles& p = state.particles;
+  const auto no_reaction = [&](Index k) {
+    if (c.second[at(k)] < n) return false;
+    const std::size_t i = at(c.first[at(k)]);
+    if (axis == AxisRule::pin && on_axis(p.position.x[i], p.position.y[i], p.radius[i])) return true;
+    // A grain and its own copy half a turn away: the reaction is the action.
+    return 2 * c.turn[at(k)] == order && state.images.owner[at(c.second[at(k)] - n)] == c.first[at(k)];
   };
   c.incoming_begin.assign(slots + 1, 0);
   for (Index k = 0; k < c.rows(); ++k)
-    if (!own_reaction(k)) ++c.incoming_begin[at(c.second[at(k)]) + 1];
+    if (!no_reaction(k)) ++c.incoming_begin[at(c.second[at(k)]) + 1];
   std::partial_sum(c.incoming_begin.begin(), c.incoming_begin.end(), c.incoming_begin.begin());
   resize_with_room(c.incoming, c.incoming_begin.back());
   for (Index k = c.rows() - 1; k >= 0; --k) {  // backwards, filling each list from its end, and end where it begins
-    if (!own_reaction(k)) c.incoming[at(--c.incoming_begin[at(c.second[at(k)]) + 1])] = k;
+    if (!no_reaction(k)) c.incoming[at(--c.incoming_begin[at(c.second[at(k)]) + 1])] = k;
   }
   // Now entry s+1 holds the begin of s: shift by one.
   for (std::size_t s = 0; s < slots; ++s) c.incoming_begin[s] = c.incoming_begin[s + 1];
@@ -221,14 +235,14 @@ void index_incoming(State& state) {
 
 }  // namespace
 
-void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis) {
+void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules) {
   const Index n = state.particles.count();
   bin_images(state, scratch);
   ContactTable& c = state.contacts;
   set_aside(c, scratch);
 
   std::vector<Found> found(at(block_count(n)));
-  const PairSearch search(state, scratch, axis);
+  const PairSearch search(state, scratch, rules.axis);
   for_each_block(block_count(n), [&](Index b) {
     Found& f = found[at(b)];
     f.second.reserve(at(4 * block_size));
@@ -248,6 +262,8 @@ void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis) {
   }
   c.row_begin[at(n)] = rows;
   ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
+  if (rules.couples)
+    ContactTable::for_each_couple_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
   resize_with_room(c.outcome, rows * static_cast<Index>(ContactTable::outcome_size));
   for_each_block(block_count(n), [&](Index b) {
     const Found& f = found[at(b)];
@@ -258,7 +274,7 @@ void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis) {
       next += f.rows_of_grain[g];
     }
   });
-  index_incoming(state);
+  index_incoming(state, rules.axis);
 }
 
 }  // namespace wedge

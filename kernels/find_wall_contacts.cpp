@@ -31,6 +31,7 @@ void carry_history(State& state, const NeighbourScratch& s, Index i, std::size_t
   c.touching[row] = 0;
   c.history.set(row, {});
   c.normal.set(row, {});
+  c.rolling_moment.set(row, {});
   const Index before = s.old_slot[at(i)];
   if (at(before) >= s.old_wall_row.size()) return;
   for (Index k = s.old_wall_row[at(before)]; k < s.old_wall_row_end[at(before)]; ++k) {
@@ -38,6 +39,7 @@ void carry_history(State& state, const NeighbourScratch& s, Index i, std::size_t
     c.touching[row] = old.touching[at(k)];
     c.history.set(row, state.symmetry.turn_vector(old.history.get(at(k)), s.wrap[at(i)]));
     c.normal.set(row, state.symmetry.turn_vector(old.normal.get(at(k)), s.wrap[at(i)]));
+    c.rolling_moment.set(row, state.symmetry.turn_vector(old.rolling_moment.get(at(k)), s.wrap[at(i)]));
   }
 }
 

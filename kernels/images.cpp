@@ -2,19 +2,21 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "kernels/integrate.hpp"
 #include "kernels/neighbours.hpp"
 
 namespace wedge {
 namespace {
 
-/// Turns at which copies of other grains act: every one for exact symmetry, the next ones for the axis rule
-/// `clamp`.
+/// Turns at which copies may act: every one for exact symmetry and for a grain pinned to the axis, the next ones
+/// otherwise.
 std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
   if (symmetry.kind() == Symmetry::Kind::translation) return {-1, 1};
+  const bool every = meets_itself(axis) || axis == AxisRule::pin;
   std::vector<int> turns;
   for (int k = 1; k < symmetry.order(); ++k) {
     const int residue = symmetry.residue(k);
-    if (axis == AxisRule::images || residue == 1 || residue == -1) turns.push_back(residue);
+    if (every || residue == 1 || residue == -1) turns.push_back(residue);
   }
   std::sort(turns.begin(), turns.end());
   return turns;
@@ -53,6 +55,7 @@ void make_images(State& state, AxisRule axis) {
       const double reach = widest + p.radius[s] + p.list_margin[s];
       const Vec3 x = p.position.get(s);
       if (distance_to_face(state.symmetry, x) > reach) continue;
+      if (axis == AxisRule::pin && on_axis(x.x, x.y, p.radius[s])) continue;  // its copies act on nobody
       for (const int k : turns) {
         if (state.symmetry.distance_to_domain(x, k) > reach) continue;
         images.owner.push_back(i);

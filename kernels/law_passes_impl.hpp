@@ -3,9 +3,11 @@
 
 #include <variant>
 
+#include "kernels/count_contacts.hpp"
 #include "kernels/evaluate_contacts.hpp"
 #include "kernels/evaluate_walls.hpp"
 #include "kernels/law_passes.hpp"
+#include "kernels/total_coulomb.hpp"
 
 namespace wedge {
 
@@ -61,6 +63,14 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
   return sum;
 }
 
+template <Friction friction>
+using Level = std::integral_constant<Friction, friction>;
+
+template <class Law>
+inline constexpr bool is_total_coulomb = false;
+template <class Law>
+inline constexpr bool is_total_coulomb<TotalCoulomb<Law>> = true;
+
 template <class Law>
 LawPasses make_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
   const auto table = prepare_table<Law>(scene);
@@ -70,32 +80,39 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
     return elastic_energy<Law>(table, walls, s, counts);
   };
 
-  using None = std::integral_constant<Friction, Friction::none>;
-  using Sliding = std::integral_constant<Friction, Friction::sliding>;
-  using Rolling = std::integral_constant<Friction, Friction::rolling>;
-  std::variant<None, Sliding, Rolling> level = None{};
-  if (friction == Friction::sliding) level = Sliding{};
-  if (friction == Friction::rolling) level = Rolling{};
+  std::variant<Level<Friction::none>, Level<Friction::sliding>, Level<Friction::rolling>, Level<Friction::relative>,
+               Level<Friction::spring>>
+      level;
+  if (friction == Friction::sliding) level.template emplace<1>();
+  if (friction == Friction::rolling) level.template emplace<2>();
+  if (friction == Friction::relative) level.template emplace<3>();
+  if (friction == Friction::spring) level.template emplace<4>();
   std::variant<std::false_type, std::true_type> budget = std::false_type{}, alike = std::false_type{};
   if (scene.output.energy_budget) budget = std::true_type{};
   if (uniform && state.particles.count() > 0) alike = std::true_type{};
 
+  const double damping = scene.contact.rolling_damping;
   std::visit(
       [&](auto f, auto with_budget, auto one_kind) {
         constexpr Friction need = decltype(f)::value;
         constexpr bool books = decltype(with_budget)::value;
-        passes.evaluate_walls = [walls](State& s, double dt) { evaluate_walls<Law, need>(walls, s, dt); };
-        if constexpr (decltype(one_kind)::value) {
+        constexpr bool compared =
+            is_total_coulomb<Law> || has_couples(need);  // for comparison: no loop of their own
+        passes.evaluate_walls = [walls, damping](State& s, double dt) {
+          evaluate_walls<Law, need>(walls, s, dt, damping);
+        };
+        if constexpr (decltype(one_kind)::value && !compared) {
           const int m = state.particles.material[0];
           const UniformMix<Law> mix{state.particles.radius[0], state.particles.mass[0], table(m, m)};
-          passes.evaluate_contacts = [mix](State& s, double dt) {
-            evaluate_contacts<Law, need, books>(mix, s, dt);
+          passes.evaluate_contacts = [mix, damping](State& s, double dt) {
+            evaluate_contacts<Law, need, books>(mix, s, dt, damping);
           };
         } else {
-          passes.evaluate_contacts = [table](State& s, double dt) {
+          passes.evaluate_contacts = [table, damping](State& s, double dt) {
+            if constexpr (need == Friction::relative) count_contacts(s);
             const GeneralMix<Law> mix{s.particles.radius.data(), s.particles.mass.data(),
                                       s.particles.material.data(), table.entries().data()};
-            evaluate_contacts<Law, need, books>(mix, s, dt);
+            evaluate_contacts<Law, need, books || compared>(mix, s, dt, damping);
           };
         }
       },

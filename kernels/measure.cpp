@@ -17,11 +17,9 @@ std::vector<WallLoad> wall_loads(const State& state) {
     for (auto k = static_cast<std::size_t>(w.begin[g]); k < static_cast<std::size_t>(w.begin[g + 1]); ++k) {
       const int wall = w.touching[k] ? state.vessel.carrier(w.feature[k]) : -1;
       if (wall < 0) continue;
-      const Vec3 point =
-          state.particles.position.get(i) + (state.particles.radius[i] - w.overlap[k]) * w.normal.get(k);
       WallLoad& load = loads[static_cast<std::size_t>(wall)];
       load.force -= w.force.get(k);
-      load.torque -= cross(point, w.force.get(k));
+      load.torque -= cross(state.particles.position.get(i), w.force.get(k)) + w.torque.get(k);
     }
   }
   return loads;

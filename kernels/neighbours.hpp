@@ -21,8 +21,14 @@ struct NeighbourScratch {
   // The touching contacts of the list before, for carrying histories, by the slots grains had then.
   Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
   Array<std::int32_t> old_partner, old_turn;
-  Vec3Array old_history, old_normal;
+  Vec3Array old_history, old_normal, old_rolling_moment;
   WallContactTable old_walls;
+};
+
+/// What makes a pair of grains a row of the list, and what the row keeps.
+struct PairRules {
+  AxisRule axis = AxisRule::clamp;
+  bool couples = false;  // rows keep a rolling couple and the moment of a rolling spring
 };
 
 /// How far each grain may go before the list is stale, from its speed and from what lists and pairs cost.
@@ -49,9 +55,9 @@ void make_images(State& state, AxisRule axis);
 void refresh_images(State& state);
 
 /// Finds all pairs closer than the sum of radii and margins, once each, histories carried over by identity. A grain
-/// meets its own copies with axis `images` alone.
+/// meets its own copies where meets_itself(axis) says so.
 /// Throws PhysicsError when two grains overlap by more than `overlap_limit` of the smaller radius.
-void find_contacts(State& state, NeighbourScratch& scratch, AxisRule axis);
+void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules);
 
 /// Finds all wall features near each grain, histories carried over.
 void find_wall_contacts(State& state, NeighbourScratch& scratch);

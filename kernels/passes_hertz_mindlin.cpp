@@ -4,4 +4,5 @@
 
 namespace wedge {
 template LawPasses make_law_passes<HertzMindlin>(const Scene&, const State&, Friction, bool);
+template LawPasses make_law_passes<TotalCoulomb<HertzMindlin>>(const Scene&, const State&, Friction, bool);
 }  // namespace wedge

@@ -4,4 +4,5 @@
 
 namespace wedge {
 template LawPasses make_law_passes<LinearLaw>(const Scene&, const State&, Friction, bool);
+template LawPasses make_law_passes<TotalCoulomb<LinearLaw>>(const Scene&, const State&, Friction, bool);
 }  // namespace wedge

@@ -22,6 +22,7 @@ struct Felt {
     force += sign * c.force(r);
     if constexpr (friction != Friction::none) torque += (radius - c.half_overlap(r)) * c.lever_torque(r);
     if constexpr (friction == Friction::rolling) cap += c.rolling_cap(r);
+    if constexpr (has_couples(friction)) torque += sign * c.couple.get(r);
   }
   /// Adds the rows in which `slot` is second, ascending.
   template <Friction friction>

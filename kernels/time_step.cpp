@@ -8,12 +8,17 @@
 #include "kernels/hertz_mindlin.hpp"
 #include "kernels/linear_law.hpp"
 #include "kernels/mindlin_deresiewicz.hpp"
+#include "kernels/total_coulomb.hpp"
 
 namespace wedge {
 
 extern template LawPasses make_law_passes<MindlinDeresiewicz>(const Scene&, const State&, Friction, bool);
 extern template LawPasses make_law_passes<HertzMindlin>(const Scene&, const State&, Friction, bool);
 extern template LawPasses make_law_passes<LinearLaw>(const Scene&, const State&, Friction, bool);
+extern template LawPasses make_law_passes<TotalCoulomb<MindlinDeresiewicz>>(const Scene&, const State&, Friction,
+                                                                            bool);
+extern template LawPasses make_law_passes<TotalCoulomb<HertzMindlin>>(const Scene&, const State&, Friction, bool);
+extern template LawPasses make_law_passes<TotalCoulomb<LinearLaw>>(const Scene&, const State&, Friction, bool);
 
 namespace {
 
@@ -24,20 +29,29 @@ Friction needed_friction(const Scene& scene) {
     slides = slides || pair.sliding > 0;
     rolls = rolls || pair.rolling > 0;
   }
-  if (rolls && scene.contact.rolling == RollingModel::constant_torque) return Friction::rolling;
+  if (rolls && scene.contact.rolling == RollingModel::elastic_plastic_spring) return Friction::spring;
+  if (rolls && scene.contact.rolling == RollingModel::constant_torque)
+    return scene.contact.rolling_velocity == RollingVelocity::relative ? Friction::relative : Friction::rolling;
   return slides ? Friction::sliding : Friction::none;
+}
+
+template <class Law>
+LawPasses limited(const Scene& scene, const State& state, Friction friction, bool uniform) {
+  if (scene.contact.coulomb == Coulomb::total)
+    return make_law_passes<TotalCoulomb<Law>>(scene, state, friction, uniform);
+  return make_law_passes<Law>(scene, state, friction, uniform);
 }
 
 LawPasses law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
   switch (scene.contact.law) {
     case ContactLaw::hertz_mindlin:
-      return make_law_passes<HertzMindlin>(scene, state, friction, uniform);
+      return limited<HertzMindlin>(scene, state, friction, uniform);
     case ContactLaw::linear:
-      return make_law_passes<LinearLaw>(scene, state, friction, uniform);
+      return limited<LinearLaw>(scene, state, friction, uniform);
     case ContactLaw::mindlin_deresiewicz:
       break;
   }
-  return make_law_passes<MindlinDeresiewicz>(scene, state, friction, uniform);
+  return limited<MindlinDeresiewicz>(scene, state, friction, uniform);
 }
 
 constexpr double default_skin = 0.03;  // mean diameters, of a pair at rest (perf/README.md, "Margins")
@@ -49,6 +63,7 @@ TimeStep::TimeStep(const Scene& scene, const State& state) : domain_(scene.domai
   const bool uniform = state.alike && state.particles.count() > 0;
   const double skin = scene.run.skin > 0 ? scene.run.skin : default_skin * state.mean_diameter;
   smallest_margin_ = 0.5 * skin;
+  rules_ = {scene.domain.axis, has_couples(friction)};
   bodies_ = make_body_passes(scene, state, friction, uniform);
   law_ = law_passes(scene, state, friction, uniform);
 }
@@ -81,8 +96,8 @@ void TimeStep::renew_list(State& state, double dt) {
   wrap(state, scratch_);
   choose_margins(state, smallest_margin_, dt);
   sort_by_cell(state, scratch_);
-  make_images(state, domain_.axis);
-  find_contacts(state, scratch_, domain_.axis);
+  make_images(state, rules_.axis);
+  find_contacts(state, scratch_, rules_);
   find_wall_contacts(state, scratch_);
   ++state.list_builds;
 }

@@ -43,6 +43,7 @@ private:
   void book_departures(State& state);
 
   Domain domain_;
+  PairRules rules_;
   double smallest_margin_;  // m
   BodyPasses bodies_;
   LawPasses law_;

@@ -293,15 +293,25 @@ TEST_CASE("options that are known but not built are refused by name", "[scene]")
     CAPTURE(override);
     CHECK(complaint(sound, {override}) == "--set " + override + ": error: " + says);
   };
-  for (const std::string axis : {"core", "pin", "line", "hollow"})
-    refused("domain.axis=" + axis, "axis '" + axis + "' is known but not built yet; use clamp or images");
-  refused("contact.rolling=elastic_plastic_spring",
-          "rolling 'elastic_plastic_spring' is known but not built yet; use none or constant_torque");
-  refused("contact.rolling_velocity=relative", "rolling_velocity 'relative' is known but not built yet; use own");
-  refused("contact.coulomb=total", "coulomb 'total' is known but not built yet; use printed");
+  refused("domain.axis=core", "axis 'core' is known but not built yet; use clamp, images, pin, line or hollow");
   refused("run.precision=mixed", "precision 'mixed' is known but not built yet; use double");
   refused("wall.shell.material=rigid",
           "material 'rigid' is known but not built yet; use a material of high stiffness");
+}
+
+TEST_CASE("options of the axis and of the contact are read and written", "[scene]") {
+  const auto again = [](const std::vector<std::string>& overrides) {
+    return parse(resolved_scene(parse(sound, overrides)), {});
+  };
+  const Scene hollow = again({"domain.axis=hollow", "domain.inner_radius=0.01"});
+  CHECK(hollow.domain.axis == AxisRule::hollow);
+  CHECK(hollow.domain.inner_radius == 0.01);
+  CHECK(again({"domain.axis=line"}).domain.axis == AxisRule::line);
+  CHECK(again({"contact.rolling_velocity=relative"}).contact.rolling_velocity == RollingVelocity::relative);
+  const Scene spring = again({"contact.rolling=elastic_plastic_spring", "contact.rolling_damping=0.7"});
+  CHECK(spring.contact.rolling == RollingModel::elastic_plastic_spring);
+  CHECK(spring.contact.rolling_damping == 0.7);
+  CHECK(again({"contact.coulomb=total"}).contact.coulomb == Coulomb::total);
 }
 
 TEST_CASE("what cannot be is refused", "[scene]") {
@@ -325,6 +335,11 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"material.grain.young=nan"}, "'young' must be a finite number");
   refused({"particles.count=2.5"}, "'count' must be a whole number");
   refused({"particles.region.r=[0.04, 0.01]"}, "'r' must rise");
+  refused({"domain.axis=hollow"}, "'inner_radius' is missing");
+  refused({"domain.inner_radius=0.01"}, "only the axis 'hollow' has an inner radius");
+  refused({"domain.axis_material=steel"}, "is made of nothing");
+  refused({"contact.rolling=none", "contact.rolling_velocity=relative"}, "has a meaning for rolling");
+  refused({"contact.rolling_damping=0.3"}, "has a meaning for rolling");
   refused({"particles.speed=fast"}, "'speed' must be a number, not a string");
   refused({"domain.outlet.z=0.01"}, "the outlet lies above the bottom of the fill region");
   refused({"stage.open.until.discharged=1001"}, "only 1000 grains are in this domain");

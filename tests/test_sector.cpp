@@ -120,52 +120,90 @@ TEST_CASE("a spinning ring keeps its angular momentum with friction on", "[secto
   }
 }
 
-TEST_CASE("unfold and compare: a sector and the full vessel with symmetric data are the same", "[sector][images]") {
-  for (const int n : {2, 4, 6, 8, 12}) {
-    const double r_max = 6 * d, r_min = R / std::sin(pi / n) * 1.25;
-    const auto grains = random_grains(n, r_min, r_max - 0.7 * d, 4.5 * d, 300 / n, 11);
-    Scene full = pot(r_max, 8 * d), sector = full;
-    make_sector(sector, n, AxisRule::images);
-    Experiment whole(full, unfolded(grains, n), 1e-5), slice(sector, grains, 1e-5);
-    const Symmetry symmetry = Symmetry::rotation(n);
-    const int count = static_cast<int>(grains.size());
+namespace {
 
-    const auto largest_difference = [&] {
-      double worst = 0;
-      for (int i = 0; i < count; ++i) {
-        const std::size_t s = slice.slot(i);
-        const Vec3 unrolled =
-            symmetry.turn_point(slice.state.particles.position.get(s), slice.state.particles.turns[s]);
-        for (int m = 0; m < n; ++m)
-          worst = std::max(worst, norm(whole.x(m * count + i) - symmetry.turn_point(unrolled, m)));
-      }
-      return worst / d;
-    };
-    int most_contacts = 0, crossings = 0;
-    for (int block = 0; block < 20; ++block) {
-      whole.run(100);
-      slice.run(100);
-      if (block == 0) CHECK(largest_difference() < 1e-12);
-      CHECK(whole.touching() ==
-            slice.touching() * n - [&] {  // a half-turn contact of a grain with itself is n/2 in the whole
-              int halves = 0;
-              for (Index k = 0; k < slice.state.contacts.rows(); ++k) {
-                const auto r = static_cast<std::size_t>(k);
-                const Index slot = slice.state.contacts.second[r], grains_here = slice.state.particles.count();
-                if (slice.state.contacts.half_overlap(r) > 0 && slot >= grains_here &&
-                    2 * slice.state.contacts.turn[r] == n &&
-                    slice.state.images.owner[static_cast<std::size_t>(slot - grains_here)] ==
-                        slice.state.contacts.first[r])
-                  ++halves;
-              }
-              return halves * n / 2;
-            }());
-      most_contacts = std::max(most_contacts, slice.touching());
+constexpr double pot_radius = 6 * d;
+
+/// Contacts of the whole vessel that the contacts of a sector stand for: n each, but for a grain with its own copy
+/// half a turn away, of which there are n / 2.
+int contacts_in_the_whole(const State& slice, int n) {
+  const ContactTable& c = slice.contacts;
+  const Index grains = slice.particles.count();
+  int twice = 0;
+  for (Index k = 0; k < c.rows(); ++k) {
+    const auto r = static_cast<std::size_t>(k);
+    if (!(c.half_overlap(r) > 0)) continue;
+    const bool shared = c.second[r] >= grains && 2 * c.turn[r] == n &&
+                        slice.images.owner[static_cast<std::size_t>(c.second[r] - grains)] == c.first[r];
+    twice += shared ? n : 2 * n;
+  }
+  return twice / 2;
+}
+
+/// Runs a sector and the full vessel with the sector's copies side by side.
+void compare_with_whole(const Scene& full, int n, AxisRule axis, double r_min, double height) {
+  const auto grains = random_grains(n, r_min, pot_radius - 0.7 * d, height, 300 / n, 11);
+  Scene sector = full;
+  make_sector(sector, n, axis);
+  Experiment whole(full, unfolded(grains, n), 1e-5), slice(sector, grains, 1e-5);
+  const Symmetry symmetry = Symmetry::rotation(n);
+  const int count = static_cast<int>(grains.size());
+  const auto largest_difference = [&] {
+    double worst = 0;
+    for (int i = 0; i < count; ++i) {
+      const std::size_t s = slice.slot(i);
+      const Vec3 unrolled =
+          symmetry.turn_point(slice.state.particles.position.get(s), slice.state.particles.turns[s]);
+      for (int m = 0; m < n; ++m)
+        worst = std::max(worst, norm(whole.x(m * count + i) - symmetry.turn_point(unrolled, m)));
     }
-    CHECK(largest_difference() < 1e-5);
-    for (const auto t : slice.state.particles.turns) crossings += t != 0;
-    CHECK(most_contacts > count / 4);  // it was not a comparison of free flights
-    CHECK(crossings > 0);
+    return worst / d;
+  };
+  int most_contacts = 0, crossings = 0;
+  for (int block = 0; block < 20; ++block) {
+    whole.run(100);
+    slice.run(100);
+    if (block == 0) CHECK(largest_difference() < 1e-12);
+    CHECK(whole.touching() == contacts_in_the_whole(slice.state, n));
+    most_contacts = std::max(most_contacts, slice.touching());
+  }
+  CHECK(largest_difference() < 1e-5);
+  for (const auto t : slice.state.particles.turns) crossings += t != 0;
+  CHECK(most_contacts > count / 4);  // it was not a comparison of free flights
+  CHECK(crossings > 0);
+}
+
+/// Grains so far out do not meet their own copies at the start.
+double clear_of_own_copies(int n) { return R / std::sin(pi / n) * 1.25; }
+
+}  // namespace
+
+TEST_CASE("unfold and compare: a sector and the full vessel with symmetric data are the same", "[sector][images]") {
+  for (const int n : {2, 4, 6, 8, 10, 12, 18}) {
+    CAPTURE(n);
+    compare_with_whole(pot(pot_radius, 8 * d), n, AxisRule::images, clear_of_own_copies(n),
+                       (n > 12 ? 6.0 : 4.5) * d);
+  }
+}
+
+TEST_CASE("unfold and compare with the options of the contact", "[sector][images]") {
+  Scene relative = pot(pot_radius, 8 * d), spring = relative, total = relative;
+  relative.contact.rolling_velocity = RollingVelocity::relative;
+  spring.contact.rolling = RollingModel::elastic_plastic_spring;
+  total.contact.coulomb = Coulomb::total;
+  total.contact.tension = Tension::none;
+  for (const Scene& scene : {relative, spring, total})
+    compare_with_whole(scene, 4, AxisRule::images, clear_of_own_copies(4), 4.5 * d);
+}
+
+TEST_CASE("unfold and compare around an inner cylinder", "[sector][hollow]") {
+  for (const int n : {2, 6, 12}) {
+    CAPTURE(n);
+    Scene full = pot(pot_radius, 8 * d);
+    full.domain.axis = AxisRule::hollow;
+    full.domain.inner_radius = 2 * d;
+    const double r_min = std::max(full.domain.inner_radius + 0.61 * d, clear_of_own_copies(n));
+    compare_with_whole(full, n, AxisRule::hollow, r_min, 6 * d);
   }
 }
 

@@ -1,0 +1,143 @@
+// test_couples.cpp: rolling resistance as couples in contacts, and the total Coulomb limit: known answers.
+#include "kernels/mindlin_deresiewicz.hpp"
+#include "kernels/rolling.hpp"
+#include "kernels/total_coulomb.hpp"
+#include "tests/catch.hpp"
+#include "tests/laboratory.hpp"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr double g = 9.81, R = 0.0025;
+
+Scene on_plate(Scene s, double tilt = 0) {
+  add_wall(s, "plate", {{0, 0}, {10, 0}});
+  s.domain.gravity = {g * std::sin(tilt), 0, -g * std::cos(tilt)};
+  return s;
+}
+
+double hertz_stiffness_factor(const Scene& s) {  // (4/3) E* sqrt(R), N/m^(3/2)
+  const Material& m = s.materials[0];
+  return 4.0 / 3.0 * m.young / (2 * (1 - m.poisson * m.poisson)) * std::sqrt(R);
+}
+double resting_overlap(const Scene& s, double tilt = 0) {
+  return std::pow(sphere_mass(R, s.materials[0].density) * g * std::cos(tilt) / hertz_stiffness_factor(s),
+                  2.0 / 3.0);
+}
+
+}  // namespace
+
+TEST_CASE("relative: the couple is mu_r |f_n|, or half of what stops the pair within the step", "[couples]") {
+  const RollingInput fast{{3, 0, 4}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0};
+  CHECK(norm(relative_couple(fast, 1e-9) - Vec3{-1.2e-4, 0, -1.6e-4}) < 1e-18);
+  const RollingInput slow{{3e-5, 0, 4e-5}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0};
+  CHECK(norm(relative_couple(slow, 1e-5) - (-0.5 * 1e-8 / 1e-5) * slow.spin) < 1e-18);
+  CHECK(norm(relative_couple({{}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0}, 1e-5)) == 0);
+}
+
+TEST_CASE("relative: a sphere that rolls on a plate stops as with the limiter", "[couples]") {
+  Scene s = hopper_material();
+  s.contact.rolling_velocity = RollingVelocity::relative;
+  s = on_plate(s);
+  const double u = 0.1, l = R - resting_overlap(s), mu_r = s.interactions(0, 0).rolling;
+  Experiment e(s, {{R, {1.5, 2.5, l}, {u, 0, 0}, {0, u / l, 0}}}, 1e-5);
+  const double deceleration = mu_r * g * l / (0.4 * R * R + l * l), x0 = e.x(0).x;
+  e.run(15000);
+  CHECK(e.v(0).x == Approx(u - deceleration * e.state.time).epsilon(1e-3));
+  REQUIRE(e.run_until([&] { return norm(e.w(0)) < 1e-3 * u / l; }, 100000));
+  CHECK(e.state.time == Approx(0.3568).epsilon(5e-3));
+  CHECK(e.x(0).x - x0 == Approx(17.84e-3).epsilon(5e-3));
+  e.run(20000);
+  CHECK(norm(e.w(0)) < 1e-9);
+}
+
+TEST_CASE("relative: a pair of spheres keeps its angular momentum; against their own spins it does not",
+          "[couples]") {
+  for (const RollingVelocity velocity : {RollingVelocity::relative, RollingVelocity::own}) {
+    Scene s = hopper_material();
+    s.contact.rolling_velocity = velocity;
+    Experiment e(s,
+                 {{R, {0, 0, 0}, {0.1, 0, 0.02}, {10, 20, -30}},
+                  {1.4 * R, {2.39 * R, 0.1 * R, 0}, {-0.05, 0.03, 0}, {-5, 2, 40}}},
+                 1e-6);
+    const auto angular = [&] {
+      Vec3 sum;
+      for (int i = 0; i < 2; ++i)
+        sum += e.mass(i) * cross(e.x(i), e.v(i)) +
+               sphere_inertia(e.mass(i), e.state.particles.radius[e.slot(i)]) * e.w(i);
+      return sum;
+    };
+    const Vec3 before = angular();
+    e.run(4000);
+    CHECK(e.touching() == 0);
+    const double change = norm(angular() - before) / norm(before);
+    if (velocity == RollingVelocity::relative) {
+      CHECK(change < 1e-12);
+    } else {
+      CHECK(change > 1e-4);
+    }
+  }
+}
+
+TEST_CASE(
+    "rolling spring: on a slope it holds by an angle of moment over stiffness, and gives way beyond its limit",
+    "[couples]") {
+  for (const double part : {0.5, 1.1}) {
+    Scene s = hopper_material();
+    s.contact.rolling = RollingModel::elastic_plastic_spring;
+    const double mu_r = s.interactions(0, 0).rolling;
+    const double tilt = std::atan(part * mu_r / (R - resting_overlap(s)));
+    s = on_plate(s, tilt);
+    const double dn = resting_overlap(s, tilt), l = R - dn, mass = sphere_mass(R, 3800);
+    Experiment e(s, {{R, {1.5, 2.5, l}, {}, {}}}, 5e-6);
+    const double x0 = e.x(0).x, moment = mass * g * std::sin(tilt) * l;
+    const double stiffness = 2.25 * hertz_stiffness_factor(s) * std::sqrt(dn) * mu_r * mu_r;
+    if (part < 1) {
+      e.run(200000);
+      // It rolls until the spring carries the moment; the contact's own creep adds its elastic displacement.
+      CHECK(e.x(0).x - x0 == Approx(l * moment / stiffness).epsilon(0.05));
+      CHECK(norm(e.w(0)) < 1e-6);
+    } else {
+      e.run(40000);
+      const double before = e.v(0).x;
+      e.run(40000);
+      const double rate = g * (std::sin(tilt) - mu_r / l * std::cos(tilt)) / (1 + 0.4 * R * R / (l * l));
+      CHECK(e.v(0).x - before == Approx(rate * 0.2).epsilon(5e-3));
+    }
+  }
+}
+
+TEST_CASE("rolling spring: a rolling sphere is braked by the limit moment and comes to rest", "[couples]") {
+  Scene s = hopper_material();
+  s.contact.rolling = RollingModel::elastic_plastic_spring;
+  s = on_plate(s);
+  const double u = 0.1, l = R - resting_overlap(s), mu_r = s.interactions(0, 0).rolling;
+  Experiment e(s, {{R, {1.5, 2.5, l}, {u, 0, 0}, {0, u / l, 0}}}, 1e-5);
+  const double deceleration = mu_r * g * l / (0.4 * R * R + l * l);
+  e.run(1000);  // the spring is loaded after a small angle
+  const double v0 = e.v(0).x, t0 = e.state.time;
+  e.run(15000);
+  CHECK(e.v(0).x == Approx(v0 - deceleration * (e.state.time - t0)).epsilon(2e-3));
+  e.run(60000);
+  CHECK(std::fabs(e.v(0).x) < 1e-5);
+  CHECK(std::fabs(e.residual()) < 0.02 * e.begin.total());
+}
+
+TEST_CASE("coulomb = total: elastic and viscous force together stay within mu |f_cn|", "[couples]") {
+  const Material m{"grain", 3800, 1e7, 0.3};
+  Interaction pair;
+  pair.sliding = 0.5;
+  pair.damping_normal = pair.damping_tangential = 0.3;
+  const auto c = MindlinDeresiewicz::prepare(m, m, pair, {});
+  ContactInput in{1e-5, 0.00125, 1e-4, 0.1, {2.0, 0, 0}, {1e-7, 2e-7, 0}};
+  const ContactResponse printed = MindlinDeresiewicz::respond(c, in),
+                        limited = TotalCoulomb<MindlinDeresiewicz>::respond(c, in);
+  CHECK(norm(printed.tangential) > 1.2 * 0.5 * printed.elastic_normal);
+  CHECK(norm(limited.tangential) == Approx(0.5 * printed.elastic_normal).epsilon(1e-12));
+  CHECK(norm(cross(limited.tangential, printed.tangential)) < 1e-12 * dot(printed.tangential, printed.tangential));
+  in.tangential_velocity = {1e-3, 0, 0};
+  CHECK(norm(TotalCoulomb<MindlinDeresiewicz>::respond(c, in).tangential -
+             MindlinDeresiewicz::respond(c, in).tangential) == 0);
+}
