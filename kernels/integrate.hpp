@@ -23,14 +23,19 @@ inline constexpr double axis_resolution = 1e-9;
 /// Velocity after a kick of length h [s] by the force f [N] and gravity g [m/s2].
 inline Vec3 kicked(Vec3 v, Vec3 f, Vec3 g, double mass, double h) { return v + h * ((1 / mass) * f + g); }
 
+/// Energy [J] that a constraint takes from a grain of this mass (or inertia) in a kick from velocity v, which alone
+/// would end at `free` and ends at `now`: the work of the impulse m (now - free) at the mean velocity of the kick.
+/// Where the constraint holds a grain at rest against a force this is zero, while the kinetic energy of `free` is
+/// not.
+inline double taken(double mass, Vec3 v, Vec3 free, Vec3 now) { return 0.5 * mass * dot(free - now, v + now); }
+
 /// The axis rule `clamp` (Yang et al. 2014, eqs 12-17): a grain whose surface reaches the axis and that moves
-/// towards it loses its radial velocity. `loss` grows by the energy taken [J].
-inline Vec3 clamped_at_axis(Vec3 v, Vec3 position, double radius, double mass, double& loss) {
+/// towards it loses its radial velocity.
+inline Vec3 clamped_at_axis(Vec3 v, Vec3 position, double radius) {
   const double r2 = position.x * position.x + position.y * position.y;
   const double outward = position.x * v.x + position.y * v.y;  // r v_r
   const double nearest = 2 * radius * axis_resolution;
   const double take = (r2 < radius * radius && r2 >= nearest * nearest && outward < 0) ? outward / r2 : 0.0;
-  loss += 0.5 * mass * take * outward;
   return {v.x - take * position.x, v.y - take * position.y, v.z};
 }
 
@@ -38,23 +43,22 @@ inline Vec3 clamped_at_axis(Vec3 v, Vec3 position, double radius, double mass, d
 /// Such a grain no longer moves sideways, so it stays on the axis.
 inline bool on_axis(double x, double y, double radius) { return x * x + y * y < 0.0025 * radius * radius; }
 
-/// The axis rule `pin`: a grain on the axis has no velocity but along it. `loss` grows by the energy taken [J].
-inline Vec3 pinned_at_axis(Vec3 v, Vec3 position, double radius, double mass, double& loss) {
+/// The axis rule `pin`: a grain on the axis has no velocity but along it.
+inline Vec3 pinned_at_axis(Vec3 v, Vec3 position, double radius) {
   const double keep = on_axis(position.x, position.y, radius) ? 0.0 : 1.0;
-  loss += 0.5 * mass * (1 - keep) * (v.x * v.x + v.y * v.y);
   return {keep * v.x, keep * v.y, v.z};
 }
 
 /// Angular velocity after a kick of length h by the torque t [N m] while rolling friction resists up to `cap` [N
 /// m]: an exact limiter (PHYSICS: a grain whose spin the cap can stop within the kick stops and stays). `loss`
-/// grows by the rotational energy that rolling friction takes [J].
+/// grows by the energy that rolling friction takes [J].
 inline Vec3 spun(Vec3 w, Vec3 t, double cap, double inertia, double h, double& loss) {
   const double rate = h / inertia;
   const Vec3 free = w + rate * t;
-  const double square = dot(free, free);
-  const double left = std::max(0.0, 1 - rate * cap / std::sqrt(square + tiny));
-  loss += 0.5 * inertia * square * (1 - left * left);
-  return left * free;
+  const double left = std::max(0.0, 1 - rate * cap / std::sqrt(dot(free, free) + tiny));
+  const Vec3 now = left * free;
+  loss += taken(inertia, w, free, now);
+  return now;
 }
 inline Vec3 spun_freely(Vec3 w, Vec3 t, double inertia, double h) { return w + (h / inertia) * t; }
 
@@ -112,10 +116,15 @@ __attribute__((always_inline)) inline void half_kick(const Bodies& b, const Kick
                                                      double h, Vec3& v, Vec3& w, double& rolling,
                                                      double& axis_loss) {
   const double mass = b.mass(i), radius = b.radius(i);
-  v = kicked(v, {a.fx[i], a.fy[i], a.fz[i]}, g, mass, h);
-  if constexpr (axis == AxisAction::clamp)
-    v = clamped_at_axis(v, {a.x[i], a.y[i], a.z[i]}, radius, mass, axis_loss);
-  if constexpr (axis == AxisAction::pin) v = pinned_at_axis(v, {a.x[i], a.y[i], a.z[i]}, radius, mass, axis_loss);
+  const Vec3 free = kicked(v, {a.fx[i], a.fy[i], a.fz[i]}, g, mass, h);
+  if constexpr (axis == AxisAction::none) {
+    v = free;
+  } else {
+    const Vec3 x{a.x[i], a.y[i], a.z[i]};
+    const Vec3 now = axis == AxisAction::clamp ? clamped_at_axis(free, x, radius) : pinned_at_axis(free, x, radius);
+    axis_loss += taken(mass, v, free, now);
+    v = now;
+  }
   if constexpr (friction == Friction::rolling) {
     w = spun(w, {a.tx[i], a.ty[i], a.tz[i]}, a.cap[i], sphere_inertia(mass, radius), h, rolling);
   } else if constexpr (friction != Friction::none) {

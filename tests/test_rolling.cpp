@@ -89,12 +89,13 @@ TEST_CASE("a sphere rests on an incline up to atan(mu_r / R) and rolls beyond", 
       const double dt = 5e-6;
       Experiment e(s, {resting(s, R)}, dt);
       e.run(20000);
-      const double v_before = e.v(0).x;
+      const double v_before = e.v(0).x, lost_before = e.state.energy.rolling;
       e.run(40000);
       const double rate = g * (std::sin(tilt) - mu_r / l * std::cos(tilt)) / (1 + 0.4 * R * R / (l * l));
       if (factor < 1) {
         CHECK(norm(e.w(0)) == 0);
         CHECK(std::fabs(e.v(0).x) < 1e-9);
+        CHECK(e.state.energy.rolling == lost_before);  // what holds a grain at rest takes no energy
       } else {
         CHECK(e.v(0).x - v_before == Approx(rate * 40000 * dt).epsilon(1e-3));
       }
