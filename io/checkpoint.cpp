@@ -11,6 +11,7 @@
 #include <memory>
 #include <string_view>
 
+#include "core/checksum.hpp"
 #include "io/atomic_file.hpp"
 #include "io/hdf5_file.hpp"
 
@@ -25,13 +26,6 @@ constexpr std::string_view file_prefix = "checkpoint_", file_suffix = ".hdf", pa
 using Head = std::array<char, head_size>;
 
 // ---- the head
-
-/// FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
-constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
-std::uint64_t fnv1a(std::uint64_t hash, const unsigned char* data, std::size_t size) {
-  for (std::size_t k = 0; k < size; ++k) hash = (hash ^ data[k]) * 0x100000001b3u;
-  return hash;
-}
 
 /// Head of a file with `bytes` bytes after the head that have the checksum `hash`.
 Head make_head(std::uint64_t bytes, std::uint64_t hash) {
