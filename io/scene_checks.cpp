@@ -102,11 +102,7 @@ void check_thickness(SceneReading& reading, const Scene& scene) {
     reading.diagnostics.error(reading.place("domain.width"), "the slot is too narrow: a grain would meet itself",
                               "make it at least " + plain_number(least_width * largest) + " m wide");
   if (domain.kind != DomainKind::sector || domain.order < 2) return;
-  double radius = 0;
-  for (const WallDescription& wall : scene.walls)
-    for (const Eigen::Vector2d& point : wall.profile) radius = std::max(radius, point.x());
-  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains); fill && radius <= 0)
-    radius = fill->r_high;
+  const double radius = widest_radius(scene);
   const double chord = 2 * radius * std::sin(numbers::pi / domain.order);
   if (radius > 0 && chord < least_width * largest) {
     const double most = numbers::pi / std::asin(std::min(1.0, least_width * largest / (2 * radius)));
@@ -156,6 +152,15 @@ void check_stage_ends(SceneReading& reading, const Scene& scene) {
 }
 
 }  // namespace
+
+double widest_radius(const Scene& scene) {
+  double radius = 0;
+  for (const WallDescription& wall : scene.walls)
+    for (const Eigen::Vector2d& point : wall.profile) radius = std::max(radius, point.x());
+  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains); fill && radius <= 0)
+    radius = fill->r_high;
+  return radius;
+}
 
 double fill_volume(const Domain& domain, const RandomFill& fill) {
   const double height = fill.z_high - fill.z_low;

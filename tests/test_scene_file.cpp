@@ -366,7 +366,7 @@ TEST_CASE("doubtful scenes are accepted with a warning", "[scene]") {
     CHECK(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return contains(w, says); }));
   };
   warned({"time.step=2e-5"}, "% of the Rayleigh time");
-  warned({"wall.floor.profile=[[0, 0], [\"19.95 d\", 0]]"}, "nearly join: they are 0.0001 m apart");
+  warned({"wall.floor.profile=[[0, 0], [\"19.95 d\", 0]]"}, "nearly join: they are 0.0001 m (0.05 d) apart");
   warned({"wall.floor.profile=[[0, 0.01], [\"20 d\", 0.01]]"}, "passes through the fill region");
   warned({"particles.count=4001"}, "does not divide by 4");
   warned({"contact.rolling=none"}, "has no effect");
