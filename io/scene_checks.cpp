@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "core/restitution.hpp"
 #include "core/time_scales.hpp"
 
 namespace wedge {
@@ -61,6 +62,21 @@ void check_rolling(SceneReading& reading, const Scene& scene) {
                                       " m is longer than the smallest radius, " + plain_number(radius) + " m",
                                   "rolling friction is a LENGTH, usually \"0.01 d\" to \"0.05 d\"");
     }
+  }
+}
+
+/// A contact time is half a period of the damped spring: from critical damping on there is none.
+void check_contact_time(SceneReading& reading, const Scene& scene) {
+  if (scene.contact.law != ContactLaw::linear || !(scene.contact.contact_time > 0)) return;
+  for (const Interaction& pair : scene.interactions.entries()) {
+    const double damping = pair.restitution && *pair.restitution > 0
+                               ? damping_for(scene.contact.law, scene.contact.tension, *pair.restitution)
+                               : pair.damping_normal;
+    if (damping < 1) continue;
+    reading.diagnostics.error(reading.place("contact.contact_time"),
+                              "a contact damped critically or more has no 'contact_time'",
+                              "give a damping below 1 (a restitution above 0.14 without tension), or 'stiffness'");
+    return;
   }
 }
 
@@ -171,6 +187,7 @@ double fill_volume(const Domain& domain, const RandomFill& fill) {
 void check_scene(SceneReading& reading, const Scene& scene) {
   check_pairs(reading, scene);
   check_rolling(reading, scene);
+  check_contact_time(reading, scene);
   check_fill(reading, scene);
   check_thickness(reading, scene);
   check_step(reading, scene, scene.time_step, "time.step");

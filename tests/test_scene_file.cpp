@@ -331,6 +331,8 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"domain.gravity=[0, 0, 0]"}, "without gravity, rest has no natural scale");
   refused({"contact.stiffness=1"}, "for the law 'linear' only");
   refused({"contact.law=linear"}, "needs stiffness = N/m or contact_time = s");
+  refused({"contact.law=linear", "contact.contact_time=1e-3", "contact.grain-grain.damping=1.2"},
+          "a contact damped critically or more has no 'contact_time'");
   refused({"stage.open.add=[\"shell\"]"}, "the wall 'shell' is there already");
   refused({"wall.floor.present=false"}, "the wall 'floor' is not there to be removed");
   refused({"wall.floor.profile=[[0, 0], [-0.04, 0]]"}, "'r' must be at least 0");
