@@ -11,6 +11,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/setup.hpp"
 #include "apps/simulation.hpp"
 #include "apps/threads.hpp"
 #include "core/parallel.hpp"
@@ -118,6 +119,7 @@ int choose_threads(int asked, const Scene& scene) {
 
 int command_run(const RunArguments& arguments) {
   Scene scene = read_scene(arguments.scene, arguments.overrides);
+  require_sources(scene);
   for (const std::string& warning : scene_warnings(scene))
     std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), warning.c_str());
   const RunFolder folder(arguments.folder);
@@ -128,6 +130,7 @@ int command_run(const RunArguments& arguments) {
   write_text_file_atomically(folder.scene(), scene.text);
   write_text_file_atomically(folder.resolved_scene(), resolved_scene(scene));
   write_provenance(folder.provenance(), arguments.command_line, threads);
+  const std::string no_grains = no_grains_text(scene);
   Simulation run = [&] {
     try {
       return Simulation::begin(std::move(scene), folder);
@@ -136,6 +139,8 @@ int command_run(const RunArguments& arguments) {
       throw;
     }
   }();
+  if (run.state().put_in == 0)
+    std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), no_grains.c_str());
   const RunEnd end = run.run({arguments.wall_time, arguments.until});
   return finish(run, end, folder, arguments);
 }

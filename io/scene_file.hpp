@@ -25,6 +25,10 @@ Scene parse_scene(const std::string& text, const std::string& file_name, const s
 /// to an equal Scene (but for `text` and `overrides`).
 std::string resolved_scene(const Scene& scene);
 
+/// Throws FileError when the run, the checkpoint or the file of grains that the scene is to start from is not
+/// there. Reading a scene does not ask for it: a run goes on without.
+void require_sources(const Scene& scene);
+
 /// What is doubtful in a checked scene but not wrong, a sentence each.
 std::vector<std::string> scene_warnings(const Scene& scene);
 

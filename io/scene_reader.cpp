@@ -96,4 +96,18 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   return parse_scene(text, path, overrides, std::filesystem::path(path).parent_path().string());
 }
 
+void require_sources(const Scene& scene) {
+  const auto there = [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+  };
+  const auto* file = std::get_if<StateFile>(&scene.particles.grains);
+  if (!scene.start_from.empty() && !there(scene.start_from))
+    throw FileError("start.from: '" + scene.start_from +
+                    "' does not exist; name the folder of a run, or a file of its folder checkpoints");
+  if (scene.start_from.empty() && file && !there(file->path))
+    throw FileError("particles.file: '" + file->path +
+                    "' does not exist; name a table of grains, such as `wedge export --to csv` writes");
+}
+
 }  // namespace wedge

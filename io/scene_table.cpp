@@ -112,7 +112,7 @@ std::optional<double> TableReader::length_in(const toml::node& node, const std::
   }
   if (!(reading_.mean_diameter > 0)) {
     reading_.diagnostics.error(at, "'" + name + "' is given in diameters, but the diameter is not known",
-                               "give [particles] a diameter, or write metres");
+                               "give [particles] a diameter or a file of grains that can be read, or write metres");
     return {};
   }
   const double value = diameters * reading_.mean_diameter;

@@ -1,7 +1,6 @@
 // scene_warnings.cpp: what is doubtful in a scene but not wrong.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -111,11 +110,6 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   for (const Stage& stage : scene.stages)
     if (stage.at_most <= 0 && !std::holds_alternative<UntilTime>(stage.until))
       warnings.push_back("the stage '" + stage.name + "' may never end: give it at_most = seconds");
-  const auto* file = std::get_if<StateFile>(&scene.particles.grains);
-  if (file && !std::filesystem::exists(file->path))
-    warnings.push_back("the file of grains '" + file->path + "' does not exist");
-  if (!scene.start_from.empty() && !std::filesystem::exists(scene.start_from))
-    warnings.push_back("the run or checkpoint to start from, '" + scene.start_from + "', does not exist");
   return warnings;
 }
 
