@@ -22,7 +22,7 @@ Scene parse_scene(const std::string& text, const std::string& file_name, const s
                   std::string base_folder);
 
 /// The scene as TOML text, every default written out, lengths in metres, paths absolute, free of locale. Reads back
-/// to an equal Scene (but for `text` and `overrides`).
+/// to an equal Scene (but for `name`, `text` and `overrides`).
 std::string resolved_scene(const Scene& scene);
 
 /// Throws FileError when the run, the checkpoint or the file of grains that the scene is to start from is not

@@ -81,6 +81,7 @@ Scene parse_scene(const std::string& text, const std::string& file_name, const s
   Scene scene = read_tree(reading, root);
   check_scene(reading, scene);
   reading.diagnostics.throw_if_wrong();
+  scene.name = std::filesystem::path(file_name).stem().string();
   scene.text = text;
   scene.overrides = overrides;
   return scene;
