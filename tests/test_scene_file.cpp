@@ -323,7 +323,10 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"material.steel.poisson=-1"}, "'poisson' must be above -1, not -1");
   refused({"material.steel.density=0"}, "'density' must be above 0");
   refused({"material.grain.young=nan"}, "'young' must be a finite number");
-  refused({"particles.count=2.5"}, "'count' must be a whole number");
+  refused({"particles.count=2.5"}, "'count' must be a whole number, not 2.5");
+  refused({"particles.count=many"}, "'count' must be a whole number, not a string");
+  refused({"stage.settle.until=later"}, "write until = 0.7 (s), \"at rest\", \"empty\" or { discharged = 1000 }");
+  refused({"stage.settle.until=emty"}, "did you mean 'empty'? Or write until = 0.7 (s), \"at rest\"");
   refused({"particles.region.r=[0.04, 0.01]"}, "'r' must rise");
   refused({"particles.speed=fast"}, "'speed' must be a number, not a string");
   refused({"domain.outlet.z=0.01"}, "the outlet lies above the bottom of the fill region");
