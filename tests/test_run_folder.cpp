@@ -205,11 +205,10 @@ TEST_CASE("a table of a frame is exact where a checkpoint is of the same step", 
   CHECK_THAT(written_to(std::cerr, [&] { command_export(out); }), Contains("full precision from " + a.folder));
   const Particles read = read_state_csv(out.output, {}, {"grain", "wall"});
   REQUIRE(read.count() == last.particles.count());
-  for (std::size_t i = 0; i < static_cast<std::size_t>(read.count()); ++i) {
-    CHECK(read.id[i] == last.particles.id[i]);
-    CHECK(read.position.x[i] == last.particles.position.x[i]);
-    CHECK(read.velocity.z[i] == last.particles.velocity.z[i]);
-  }
+  CHECK(read.id == last.particles.id);
+  CHECK(read.velocity.z == last.particles.velocity.z);
+  for (std::size_t i = 0; i < read.id.size(); ++i)  // positions have further slots for images
+    if (read.position.x[i] != last.particles.position.x[i]) FAIL("grain " << read.id[i] << " was rounded");
   fs::remove(checkpoint_path(a.folder + "/checkpoints", 3000));
   out.frame = 2;  // the end of the stage "settle", at step 3000
   CHECK_THAT(written_to(std::cerr, [&] { command_export(out); }), Contains("stage_settle.hdf"));
