@@ -62,6 +62,9 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
   if (!s.memory_.scene_name.empty()) s.scene_->name = s.memory_.scene_name;
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
   s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, s.state_->time);
+  if (s.memory_.stage > 0 &&
+      !s.memory_.stage_begun)  // a kill may have come between the checkpoint and its second name
+    s.recorder_->keep_stage(s.scene_->stages[static_cast<std::size_t>(s.memory_.stage) - 1].name, s.state_->step);
   if (s.memory_.stage > 0) s.results_ = read_bed_table(folder.beds());
   s.results_.resize(std::min(s.results_.size(), static_cast<std::size_t>(s.memory_.stage)));
   return s;

@@ -180,9 +180,12 @@ TEST_CASE("a finished run that is resumed stays as it is", "[run]") {
   const std::string checkpoint = *newest_valid_checkpoint(a.folder + "/checkpoints");
   const std::string log = read_text_file(a.folder + "/run.log");
   const auto written = fs::last_write_time(checkpoint);
+  const std::string last_stage = a.folder + "/checkpoints/stage_discharge.hdf";
+  fs::remove(last_stage);
   CHECK(command_resume(a) == exit_code::ok);
   CHECK(fs::last_write_time(checkpoint) == written);
   CHECK(read_text_file(a.folder + "/run.log") == log);
+  CHECK(checkpoint_is_valid(last_stage));  // as after a kill just before it got its second name
   CHECK(read_progress(a.folder + "/progress.json").state == "finished");
   CHECK(read_progress(a.folder + "/progress.json").time_step == 2e-5);
 }
