@@ -30,7 +30,8 @@ void write_bed_table(const std::string& path, const std::vector<StageResult>& st
 std::vector<StageResult> read_bed_table(const std::string& path);
 
 /// Picture (SVG) of the grains within 2 mean diameters of the plane y = 0, a sector unfolded to the whole vessel,
-/// coloured by speed, with the walls and a colour bar. Throws FileError.
-void write_slice_svg(const std::string& path, const State& state, const Scene& scene, const std::string& title);
+/// coloured by speed, with the walls and a colour bar; its title names scene, domain, stage and time. Throws
+/// FileError.
+void write_slice_svg(const std::string& path, const State& state, const Scene& scene, const std::string& stage);
 
 }  // namespace wedge

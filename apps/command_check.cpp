@@ -1,37 +1,40 @@
 // command_check.cpp: wedge check: what a scene means, and what running it will take.
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include "apps/commands.hpp"
 #include "apps/progress_line.hpp"
+#include "apps/setup.hpp"
 #include "apps/text_table.hpp"
 #include "apps/threads.hpp"
+#include "core/restitution.hpp"
 #include "core/time_scales.hpp"
 #include "io/scene_diagnostics.hpp"
 #include "io/scene_file.hpp"
 #include "io/scene_names.hpp"
-#include "io/state_csv.hpp"
 
 namespace wedge {
 namespace {
 
 // What the estimates assume, as measured on dense beds of equal grains.
-constexpr double bytes_per_grain = 1000;         // memory: grain, near pairs, images, scratch
-constexpr double steps_per_core_second = 6e6;    // grains times steps
-constexpr double frame_bytes = 52;               // per grain, packed, single precision
-constexpr double contact_bytes = 58;             // per contact, packed, single precision
-constexpr double contacts_per_grain = 2.5;       // half of a coordination number of 5
+constexpr double bytes_per_grain = 1200;       // memory: grain, near pairs, images, scratch, while a bed collapses
+constexpr double bytes_in_any_case = 20e6;     // memory: program and libraries
+constexpr double steps_per_core_second = 6e6;  // grains times steps
+constexpr double frame_bytes = 52;             // per grain, packed, single precision
+constexpr double contact_bytes = 58;           // per contact, packed, single precision
+constexpr double contacts_per_grain = 2.5;     // half of a coordination number of 5
 constexpr double double_precision_factor = 2.2;  // doubles are longer and pack less well
 constexpr double checkpoint_bytes = 550;         // per grain
 constexpr double series_row_bytes = 640;         // a row of energies, ledger and walls together
 
 std::string text_of(std::int64_t number) { return std::to_string(number); }
+std::string four_digits(double value) { return short_number(std::round(1e4 * value) / 1e4); }
 
 void print_pairs(const Scene& scene) {
   TextTable table;
-  table.row({"pair", "sliding", "rolling [m]", "damping normal", "tangential", "restitution"});
+  table.row({"pair", "sliding", "rolling [m]", "damping normal", "tangential", "restitution", "given"});
+  const ContactModel& model = scene.contact;
   for (int a = 0; a < scene.interactions.kinds(); ++a) {
     for (int b = a; b < scene.interactions.kinds(); ++b) {
       const Interaction& pair = scene.interactions(a, b);
@@ -39,14 +42,21 @@ void print_pairs(const Scene& scene) {
                                scene.materials[static_cast<std::size_t>(b)].name;
       if (!pair.given) {
         table.row({name, "not given"});
-      } else {
-        table.row({name, short_number(pair.sliding), short_number(pair.rolling), short_number(pair.damping_normal),
-                   short_number(pair.damping_tangential),
-                   pair.restitution ? short_number(*pair.restitution) : "from damping"});
+        continue;
       }
+      const double asked = pair.restitution ? damping_for(model.law, model.tension, *pair.restitution) : 0;
+      const double normal = pair.restitution ? asked : pair.damping_normal;
+      const double tangential = pair.restitution ? asked : pair.damping_tangential;
+      const double restitution =
+          pair.restitution ? *pair.restitution : restitution_of(model.law, model.tension, pair.damping_normal);
+      table.row({name, short_number(pair.sliding), short_number(pair.rolling), four_digits(normal),
+                 four_digits(tangential), four_digits(restitution), pair.restitution ? "restitution" : "damping"});
     }
   }
-  std::cout << "\nPairs of materials\n" << table.text("  ");
+  std::cout << "\nPairs of materials\n"
+            << table.text("  ")
+            << "  Restitution of a head-on impact, whatever its speed, and damping follow from one another"
+            << (model.tension == Tension::none ? " (tension = \"none\")" : "") << ", as dt goes to 0.\n";
 }
 
 /// Speeds [m/s] at which grains may meet: 0.1 m/s, and that of a fall through the fill region.
@@ -85,16 +95,11 @@ void print_time_steps(const Scene& scene) {
     if (stage.time_step) print_time_step(scene, *stage.time_step, "stage " + stage.name);
 }
 
-/// Grains in this domain; nothing when their file cannot be read or another run has them.
-std::optional<std::int64_t> grains_here(const Scene& scene) {
-  if (!scene.start_from.empty()) return std::nullopt;
-  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains))
-    return std::llround(static_cast<double>(fill->count) / scene.domain.order);
-  const StateFile& file = std::get<StateFile>(scene.particles.grains);
-  if (!std::filesystem::exists(file.path)) return std::nullopt;
-  std::vector<std::string> names;
-  for (const Material& material : scene.materials) names.push_back(material.name);
-  return read_state_csv(file.path, {file.diameter / 2, file.material}, names).count();
+/// Grains in this domain. Those of another run or of a file are read as for a run, and refused as by one.
+std::int64_t grains_here(const Scene& scene) {
+  const auto* fill = std::get_if<RandomFill>(&scene.particles.grains);
+  if (!fill || !scene.start_from.empty()) return make_start(scene).particles.count();
+  return std::llround(static_cast<double>(fill->count) / scene.domain.order);
 }
 
 void print_axis(const Domain& domain) {
@@ -130,7 +135,7 @@ void print_axis(const Domain& domain) {
   }
 }
 
-void print_domain(const Scene& scene, std::optional<std::int64_t> grains) {
+void print_domain(const Scene& scene, std::int64_t grains) {
   const Domain& domain = scene.domain;
   std::cout << "\nDomain\n  ";
   if (domain.kind == DomainKind::full) std::cout << "the full vessel";
@@ -139,14 +144,13 @@ void print_domain(const Scene& scene, std::optional<std::int64_t> grains) {
     std::cout << "a sector of " << short_number(360.0 / domain.order) << " degrees, one of " << domain.order;
   if (domain.kind != DomainKind::full) std::cout << ", sides " << sides_names.of(domain.sides);
   std::cout << '\n';
-  if (!grains) {
-    std::cout << "  grains: not known before the run starts\n";
-  } else if (domain.kind == DomainKind::sector) {
+  if (domain.kind == DomainKind::sector) {
     const auto* fill = std::get_if<RandomFill>(&scene.particles.grains);
-    std::cout << "  grains: " << text_of(fill ? fill->count : *grains * domain.order) << " in the full vessel, "
-              << text_of(*grains) << " in this sector\n";
+    const bool filled = fill && scene.start_from.empty();
+    std::cout << "  grains: " << text_of(filled ? fill->count : grains * domain.order) << " in the full vessel, "
+              << text_of(grains) << " in this sector\n";
   } else {
-    std::cout << "  grains: " << text_of(*grains) << '\n';
+    std::cout << "  grains: " << text_of(grains) << '\n';
   }
   print_axis(domain);
 }
@@ -188,16 +192,19 @@ void print_disk(const Scene& scene, double grains, double time, const char* at_m
   if (output.frames_every > 0) frames += std::floor(time / output.frames_every);
   const double rows = output.series_every > 0 ? time / output.series_every : 200 * time;
   const double contacts = output.contacts ? frames * grains * contacts_per_grain * contact_bytes * number : 0;
+  const std::int64_t checkpoints = 2 + static_cast<std::int64_t>(scene.stages.size());
   std::cout << "  disk: " << at_most << text_of(std::llround(frames)) << " frames of grains, "
             << size_text(frames * grains * frame_bytes * number) << "; contacts "
             << (output.contacts ? size_text(contacts) : "none") << "; series " << size_text(rows * series_row_bytes)
-            << "; two checkpoints " << size_text(2 * grains * checkpoint_bytes) << '\n';
+            << "; " << text_of(checkpoints) << " checkpoints (the last two, one for each stage) "
+            << size_text(static_cast<double>(checkpoints) * grains * checkpoint_bytes) << '\n';
 }
 
 void print_costs(const Scene& scene, double grains, int threads) {
   const int used = threads > 0 ? threads : scene.run.threads > 0 ? scene.run.threads : usable_threads();
-  std::cout << "\nCost (estimates)\n  memory: " << size_text(grains * bytes_per_grain) << " (assumes "
-            << size_text(bytes_per_grain) << " for a grain with its contacts and images)\n";
+  std::cout << "\nCost (estimates)\n  memory: " << size_text(bytes_in_any_case + grains * bytes_per_grain)
+            << " (assumes " << size_text(bytes_in_any_case) << " and " << size_text(bytes_per_grain)
+            << " for a grain with its contacts and images in a dense bed that collapses)\n";
   bool exact = true;
   const std::optional<double> time = simulated_time(scene, exact);
   if (!time) {
@@ -222,13 +229,15 @@ void print_costs(const Scene& scene, double grains, int threads) {
 
 int command_check(const std::string& scene_file, const std::vector<std::string>& overrides, int threads) {
   const Scene scene = read_scene(scene_file, overrides);
+  require_sources(scene);
   std::cout << resolved_scene(scene);
   print_pairs(scene);
   print_time_steps(scene);
-  const std::optional<std::int64_t> grains = grains_here(scene);
+  const std::int64_t grains = grains_here(scene);
   print_domain(scene, grains);
-  if (grains) print_costs(scene, static_cast<double>(*grains), threads);
-  const std::vector<std::string> warnings = scene_warnings(scene);
+  print_costs(scene, static_cast<double>(grains), threads);
+  std::vector<std::string> warnings = scene_warnings(scene);
+  if (grains == 0) warnings.push_back(no_grains_text(scene));
   std::cout << (warnings.empty() ? "\nNo warnings.\n" : "\nWarnings\n");
   for (const std::string& warning : warnings) std::cout << "  " << warning << '\n';
   return exit_code::ok;

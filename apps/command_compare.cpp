@@ -1,6 +1,7 @@
 // command_compare.cpp: wedge compare: what the beds of two sets of runs have in common, as a table.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -19,7 +20,12 @@ using Tables = std::vector<std::vector<StageResult>>;  // one per run
 
 Tables read_tables(const std::vector<std::string>& folders) {
   Tables tables;
-  for (const std::string& folder : folders) tables.push_back(read_bed_table(RunFolder(folder).beds()));
+  for (const std::string& folder : folders) {
+    const RunFolder run(folder);
+    run.require_run();
+    const bool measured = std::filesystem::exists(run.beds());  // not before the first stage has ended
+    tables.push_back(measured ? read_bed_table(run.beds()) : std::vector<StageResult>());
+  }
   return tables;
 }
 
@@ -128,7 +134,9 @@ int command_compare(const std::vector<std::string>& reference, const std::vector
   std::cout << "reference: " << runs_text(reference) << "\ncompared:  " << runs_text(with) << '\n';
   print_stages(first, second);
   std::cout << "\nNumbers are those of the whole vessel, means over the runs, at the end of each stage. Spread: "
-            << (reference.size() == 1   ? "not known from one run"
+            << (reference.size() == 1
+                    ? "not known from one run; several seeds give it: wedge run SCENE.toml -o FOLDER "
+                      "--set particles.seed=2, and name all folders"
                 : reference.size() == 2 ? "half of the range of the two reference runs"
                                         : "standard deviation of the reference runs")
             << ".\nDistributions, maps and tolerances come with `wedge analyse`, which is not built yet.\n";

@@ -16,6 +16,7 @@
 #include "apps/unfold.hpp"
 #include "core/require.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
 #include "io/frame.hpp"
 #include "io/scene_file.hpp"
 #include "io/state_csv.hpp"
@@ -62,9 +63,26 @@ private:
   std::string path_;
 };
 
+/// Frames of single precision: takes the grains from a checkpoint of the same step, which has doubles, if there is
+/// one, and says what it did.
+void take_doubles(ParticleFrame& frame, const std::string& source, const Scene& scene, const RunFolder& folder) {
+  if (frame.header.info.precision == FramePrecision::double_precision) return;
+  const auto checkpoint = std::filesystem::is_directory(folder.checkpoints())
+                              ? checkpoint_of_step(folder.checkpoints(), frame.header.step)
+                              : std::nullopt;
+  if (!checkpoint) {
+    std::cerr << "note: " << source << " holds single precision, so do these numbers; no checkpoint is of the same "
+              << "step. For all frames in full: precision = \"double\" in [output]\n";
+    return;
+  }
+  State state = make_domain(scene);
+  read_checkpoint(*checkpoint, state);
+  frame.particles = std::move(state.particles);
+  std::cerr << "note: numbers in full precision from " << *checkpoint << ", which is of the same step as " << source
+            << '\n';
+}
+
 void write_csv(const std::string& output, const ParticleFrame& frame, const Scene& scene) {
-  if (frame.header.info.precision == FramePrecision::single_precision)
-    std::cerr << "note: the frames of this run hold single precision, so do these numbers\n";
   std::vector<std::string> materials;
   for (const Material& material : scene.materials) materials.push_back(material.name);
   if (!output.empty()) return write_state_csv(output, frame.particles, materials);
@@ -120,6 +138,7 @@ Particles unfolded(const Particles& grains, const Symmetry& symmetry) {
 
 int command_export(const ExportArguments& arguments) {
   const RunFolder folder(arguments.folder);
+  folder.require_run();
   const Scene scene = read_scene(folder.resolved_scene(), {});
   const long number = arguments.frame ? *arguments.frame : last_frame(folder);
   const std::string source = folder.frame("particles", number);
@@ -129,6 +148,7 @@ int command_export(const ExportArguments& arguments) {
     return name.substr(0, name.size() - 4) + ".vtp";
   };
   const bool grains = !arguments.format.empty();
+  if (arguments.format == "csv") take_doubles(frame, source, scene, folder);
   if (arguments.unfold) frame.particles = unfolded(frame.particles, make_domain(scene).symmetry);
   if (arguments.format == "csv") write_csv(arguments.output, frame, scene);
   if (arguments.format == "vtp") {

@@ -112,7 +112,10 @@ private:
   }
   void scene_options(CLI::App* command) {
     command->add_option("SCENE", run_.scene, "scene file (TOML)")->required();
-    command->add_option("--set", run_.overrides, "use this value instead of the scene's; may be repeated")
+    command
+        ->add_option(
+            "--set", run_.overrides,
+            "use this value instead of the scene's; may be repeated (particles.file replaces the keys of a fill)")
         ->allow_extra_args(false)
         ->expected(1)
         ->take_all()

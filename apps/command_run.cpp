@@ -11,6 +11,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/setup.hpp"
 #include "apps/simulation.hpp"
 #include "apps/threads.hpp"
 #include "core/parallel.hpp"
@@ -45,17 +46,6 @@ private:
   int descriptor_;
 };
 
-/// Makes the folder of a new run; refuses one that holds another run.
-void claim_folder(const RunFolder& folder) {
-  std::error_code error;
-  fs::create_directories(folder.path(), error);
-  if (error) throw FileError(folder.path() + ": cannot make the folder: " + error.message());
-  for (const std::string& mark : {folder.scene(), folder.resolved_scene(), folder.log()})
-    if (fs::exists(mark))
-      throw FileError(folder.path() + ": holds another run (" + fs::path(mark).filename().string() +
-                      "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
-}
-
 bool newest_valid_checkpoint_or_none(const RunFolder& folder) {
   return fs::is_directory(folder.checkpoints()) && newest_valid_checkpoint(folder.checkpoints()).has_value();
 }
@@ -70,6 +60,18 @@ void leave_folder(const RunFolder& folder) {
   for (const std::string& sub :
        {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()})
     fs::remove_all(sub, ignored);
+}
+
+/// Makes the folder of a new run; refuses one that holds another run, unless that broke down before its first step.
+void claim_folder(const RunFolder& folder) {
+  std::error_code error;
+  fs::create_directories(folder.path(), error);
+  if (error) throw FileError(folder.path() + ": cannot make the folder: " + error.message());
+  if (folder.failed_at_start()) leave_folder(folder);
+  for (const std::string& mark : {folder.scene(), folder.resolved_scene(), folder.log()})
+    if (fs::exists(mark))
+      throw FileError(folder.path() + ": holds another run (" + fs::path(mark).filename().string() +
+                      "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
 }
 
 void print_timings(Simulation& run) {
@@ -118,6 +120,7 @@ int choose_threads(int asked, const Scene& scene) {
 
 int command_run(const RunArguments& arguments) {
   Scene scene = read_scene(arguments.scene, arguments.overrides);
+  require_sources(scene);
   for (const std::string& warning : scene_warnings(scene))
     std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), warning.c_str());
   const RunFolder folder(arguments.folder);
@@ -128,28 +131,37 @@ int command_run(const RunArguments& arguments) {
   write_text_file_atomically(folder.scene(), scene.text);
   write_text_file_atomically(folder.resolved_scene(), resolved_scene(scene));
   write_provenance(folder.provenance(), arguments.command_line, threads);
+  const std::string no_grains = no_grains_text(scene);
   Simulation run = [&] {
     try {
       return Simulation::begin(std::move(scene), folder);
+    } catch (const PhysicsError&) {
+      throw;  // its crash frame and its report stay
     } catch (...) {
       leave_folder(folder);
       throw;
     }
   }();
+  if (run.state().put_in == 0)
+    std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), no_grains.c_str());
   const RunEnd end = run.run({arguments.wall_time, arguments.until});
   return finish(run, end, folder, arguments);
 }
 
 int command_resume(const RunArguments& arguments) {
   const RunFolder folder(arguments.folder);
-  if (!fs::exists(folder.resolved_scene()))
-    throw FileError(folder.path() + ": holds no run (scene.resolved.toml is missing)");
+  folder.require_run();
+  if (folder.failed_at_start())
+    throw FileError(folder.path() + ": the run broke down before its first step (" +
+                    fs::path(folder.log()).filename().string() +
+                    " says why); correct its start and run it again, into the same folder if you like");
   Scene scene = read_scene(folder.resolved_scene(), {});
   scene.text = read_text_file(folder.scene());
   const FolderLock lock(folder);
   choose_threads(arguments.threads, scene);
   catch_interrupts();
   Simulation run = Simulation::resume(std::move(scene), folder);
+  if (run.finished()) std::printf("already finished: nothing is left to do\n");
   const RunEnd end = run.run({arguments.wall_time, arguments.until});
   return finish(run, end, folder, arguments);
 }

@@ -3,6 +3,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 #include <string>
 
@@ -24,6 +25,12 @@ static bool somebody_runs(const RunFolder& folder) {
 }
 
 int command_status(const std::string& folder) {
+  RunFolder(folder).require_run();
+  if (!std::filesystem::exists(RunFolder(folder).progress())) {
+    std::cout << folder << (somebody_runs(RunFolder(folder)) ? ": starting" : ": never got to its first step")
+              << '\n';
+    return exit_code::ok;
+  }
   const Progress p = read_progress(RunFolder(folder).progress());
   std::string line = folder + ": " + p.state;
   if (p.stage_number > 0)

@@ -28,12 +28,15 @@ void ProgressLine::show(const Progress& p, double rate, double now) {
   if (now - last_ < (terminal_ ? 0.5 : 30.0)) return;
   last_ = now;
   char text[256];
-  std::snprintf(text, sizeof text,
-                "%s (%d/%d)  t %.4f s  step %lld  %lld grains, %lld out  %.1f M particle-steps/s%s%s",
-                p.stage.c_str(), p.stage_number, p.stage_count, p.time, static_cast<long long>(p.step),
-                static_cast<long long>(p.grains), static_cast<long long>(p.discharged), 1e-6 * rate,
-                p.eta_seconds >= 0 ? "  ETA " : "", p.eta_seconds >= 0 ? duration_text(p.eta_seconds).c_str() : "");
+  std::snprintf(text, sizeof text, "%s (%d/%d)  t %.4f s  step %lld  %lld grains, %lld out", p.stage.c_str(),
+                p.stage_number, p.stage_count, p.time, static_cast<long long>(p.step),
+                static_cast<long long>(p.grains), static_cast<long long>(p.discharged));
   std::string line = text;
+  if (rate > 0) {
+    std::snprintf(text, sizeof text, "  %.1f M particle-steps/s", 1e-6 * rate);
+    line += text;
+  }
+  if (p.eta_seconds >= 0) line += "  ETA " + duration_text(p.eta_seconds);
   if (!terminal_) {
     std::fprintf(stderr, "%s\n", line.c_str());
     return;

@@ -11,7 +11,7 @@ struct Progress;
 class ProgressLine {
 public:
   ProgressLine();
-  /// `rate` [particle-steps/s] of this session; `now` [s] of this session's wall time.
+  /// `rate` [particle-steps/s] of this session, 0: not known; `now` [s] of this session's wall time.
   void show(const Progress& progress, double rate, double now);
   /// A line that stays.
   void note(const std::string& text);

@@ -58,7 +58,9 @@ Recorder::Recorder(const RunFolder& folder, const Scene& scene, const Vessel& ve
        {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()})
     make_folder(path);
   open_series(vessel, resume_time);
-  if (resume_time) forget_later_frames(memory);
+  if (!resume_time) return;
+  forget_later_frames(memory);
+  forget_later_stages(memory);
 }
 
 void Recorder::open_series(const Vessel& vessel, std::optional<double> resume_time) {
@@ -90,6 +92,14 @@ void Recorder::forget_later_frames(const RunMemory& memory) {
     }
   }
   list_frames(memory);
+}
+
+/// A stage that runs again has not ended: nobody shall start from its earlier end meanwhile.
+void Recorder::forget_later_stages(const RunMemory& memory) {
+  for (auto s = static_cast<std::size_t>(memory.stage); s < scene_.stages.size(); ++s) {
+    std::error_code ignored;
+    fs::remove(folder_.stage_checkpoint(scene_.stages[s].name), ignored);
+  }
 }
 
 void Recorder::record_due(State& state, const TimeStep& step, RunMemory& memory) {
@@ -171,6 +181,10 @@ void Recorder::record_checkpoint(const State& state, const RunMemory& memory) {
   const CheckpointExtra extra{scene_.text, resolved_scene(scene_), memory.to_text()};
   write_checkpoint(checkpoint_path(folder_.checkpoints(), state.step), state, extra);
   keep_last(folder_.checkpoints(), 2);
+}
+
+void Recorder::keep_stage(const std::string& stage, std::int64_t step) {
+  keep_as(checkpoint_path(folder_.checkpoints(), step), folder_.stage_checkpoint(stage));
 }
 
 std::string Recorder::record_crash(const State& state) {

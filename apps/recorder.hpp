@@ -17,7 +17,7 @@ namespace wedge {
 class Recorder {
 public:
   /// Makes the folders and empty series of a new run, or cuts those of an old one back to `resume_time` [s] and to
-  /// the frames in `memory`. Throws FileError.
+  /// the frames and stages in `memory`. Throws FileError.
   Recorder(const RunFolder& folder, const Scene& scene, const Vessel& vessel, const RunMemory& memory,
            std::optional<double> resume_time);
 
@@ -31,6 +31,8 @@ public:
   void record_departures(State& state);
   /// Writes a checkpoint and keeps the last two. Pre: departures were recorded.
   void record_checkpoint(const State& state, const RunMemory& memory);
+  /// Keeps the last checkpoint, of this step, as that of the stage's end.
+  void keep_stage(const std::string& stage, std::int64_t step);
   /// The grains as they are when the physics broke down: frames/crash_particles.hdf.
   std::string record_crash(const State& state);
 
@@ -41,6 +43,7 @@ public:
 private:
   void open_series(const Vessel& vessel, std::optional<double> resume_time);
   void forget_later_frames(const RunMemory& memory);
+  void forget_later_stages(const RunMemory& memory);
   void list_frames(const RunMemory& memory) const;
 
   RunFolder folder_;

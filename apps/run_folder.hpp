@@ -29,10 +29,21 @@ public:
   }
   std::string frame_series(const char* kind) const { return frames() + "/" + kind + ".hdf.series"; }
   std::string checkpoints() const { return path_ + "/checkpoints"; }
+  /// The checkpoint of a stage's end.
+  std::string stage_checkpoint(const std::string& stage) const {
+    return checkpoints() + "/stage_" + file_name_of(stage) + ".hdf";
+  }
   std::string results() const { return path_ + "/results"; }
   /// One row per finished stage: what the bed was like (see bed_table.hpp).
   std::string beds() const { return results() + "/beds.csv"; }
-  std::string slice(const std::string& stage) const { return results() + "/slice_" + stage + ".svg"; }
+  std::string slice(const std::string& stage) const { return results() + "/slice_" + file_name_of(stage) + ".svg"; }
+
+  /// Throws FileError, which says what is missing and what the folder of a run is, unless this is one.
+  void require_run() const;
+  /// Whether a run broke down here before its first step: nothing is there to go on with.
+  bool failed_at_start() const;
+  /// A stage's name as part of the name of a file: what a file system may refuse, and blanks, as %XX.
+  static std::string file_name_of(const std::string& stage);
 
 private:
   std::string path_;

@@ -113,16 +113,30 @@ State make_start(const Scene& scene) {
   return state;
 }
 
+std::string no_grains_text(const Scene& scene) {
+  const auto* file = std::get_if<StateFile>(&scene.particles.grains);
+  const std::string source = !scene.start_from.empty() ? "start.from: '" + scene.start_from + "'"
+                             : file                    ? "particles.file: '" + file->path + "'"
+                                                       : "particles.count: this sector's share";
+  return source + " holds no grains: the run starts empty; check that this is meant";
+}
+
 double stage_time_step(const Scene& scene, const State& state, const Stage& stage) {
   if (stage.time_step) return *stage.time_step;
   if (scene.time_step > 0) return scene.time_step;
-  if (scene.contact.law == ContactLaw::linear) return chosen_time_step(scene);
   double shortest = std::numeric_limits<double>::infinity();  // the smallest grain really there decides
   for (std::size_t i = 0; i < static_cast<std::size_t>(state.particles.count()); ++i)
     shortest =
         std::min(shortest, rayleigh_time(state.particles.radius[i],
                                          scene.materials[static_cast<std::size_t>(state.particles.material[i])]));
-  return std::isfinite(shortest) ? 0.1 * shortest : chosen_time_step(scene);
+  const bool by_grains = std::isfinite(shortest) && scene.contact.law != ContactLaw::linear;
+  const double step = by_grains ? 0.1 * shortest : chosen_time_step(scene);
+  if (!(step > 0))
+    throw SceneError(
+        "time.step = \"auto\": no grain is there, or none of known size, to choose a time step by; give it in "
+        "seconds, "
+        "such as step = 1e-5");
+  return step;
 }
 
 }  // namespace wedge

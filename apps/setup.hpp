@@ -15,7 +15,11 @@ State make_domain(const Scene& scene);
 /// Throws SceneError when grains find no room or lie outside the domain, FileError when a file cannot be read.
 State make_start(const Scene& scene);
 
-/// Step length [s] of a stage: its own, the scene's, or, when that is auto, the chosen one.
+/// What to say of a start without grains: legal, since a sector may be empty, but seldom meant.
+std::string no_grains_text(const Scene& scene);
+
+/// Step length [s] of a stage: its own, the scene's, or, when that is auto, the chosen one. Throws SceneError when
+/// there is no grain to choose it by.
 double stage_time_step(const Scene& scene, const State& state, const Stage& stage);
 
 }  // namespace wedge

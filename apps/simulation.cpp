@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::int64_t look_every = 20;  // steps between looks at the wall clock, at signals and at rest
 constexpr double report_every = 1;       // s of wall time between rewrites of progress.json
+constexpr double least_to_judge = 1;     // s of wall time from which on a rate or a forecast is told
 
 double seconds_since(std::chrono::steady_clock::time_point t) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
@@ -31,11 +32,17 @@ Simulation Simulation::begin(Scene scene, const RunFolder& folder) {
   Simulation s(std::move(scene), folder);
   s.state_ = std::make_unique<State>(make_start(*s.scene_));
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
-  // A bed taken over from another run brings its forces along; the first step makes its list anew.
-  if (s.scene_->start_from.empty())
-    s.step_->start(*s.state_, stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front()));
-  s.memory_.begin = s.step_->energies(*s.state_);
+  s.memory_.scene_name = s.scene_->name;
+  const double dt = stage_time_step(*s.scene_, *s.state_, s.scene_->stages.front());
   s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, std::nullopt);
+  try {
+    // A bed taken over from another run brings its forces along; the first step makes its list anew.
+    if (s.scene_->start_from.empty()) s.step_->start(*s.state_, dt);
+  } catch (const PhysicsError& error) {
+    s.fail(error,
+           "Nothing is there to resume: correct the start and run it again, into the same folder if you like.");
+  }
+  s.memory_.begin = s.step_->energies(*s.state_);
   s.save("start");  // a run killed in its first minutes can go on, and so can one whose physics fails
   return s;
 }
@@ -45,13 +52,19 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
   if (!newest) throw FileError(folder.checkpoints() + ": no valid checkpoint to resume from");
   Simulation s(std::move(scene), folder);
   for (const auto& entry : std::filesystem::directory_iterator(folder.checkpoints()))
-    if (entry.path().extension() == ".hdf" && entry.path().string() > *newest)
+    if (entry.path().filename().string().rfind("checkpoint_", 0) == 0 && entry.path().extension() == ".hdf" &&
+        entry.path().string() > *newest)
       s.line_.note(entry.path().string() + ": damaged, going back to " + *newest);
   s.state_ = std::make_unique<State>(make_domain(*s.scene_));
   const CheckpointExtra extra = read_checkpoint(*newest, *s.state_);
   s.memory_ = RunMemory::from_text(extra.run_state, *newest);
+  s.dt_ = s.memory_.time_step;
+  if (!s.memory_.scene_name.empty()) s.scene_->name = s.memory_.scene_name;
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
   s.recorder_ = std::make_unique<Recorder>(folder, *s.scene_, s.state_->vessel, s.memory_, s.state_->time);
+  if (s.memory_.stage > 0 &&
+      !s.memory_.stage_begun)  // a kill may have come between the checkpoint and its second name
+    s.recorder_->keep_stage(s.scene_->stages[static_cast<std::size_t>(s.memory_.stage) - 1].name, s.state_->step);
   if (s.memory_.stage > 0) s.results_ = read_bed_table(folder.beds());
   s.results_.resize(std::min(s.results_.size(), static_cast<std::size_t>(s.memory_.stage)));
   return s;
@@ -63,26 +76,29 @@ RunEnd Simulation::run(const RunLimits& limits) {
   try {
     return run_stages(limits);
   } catch (const PhysicsError& error) {
-    std::string text = error.what();
     const auto last = newest_valid_checkpoint(folder_.checkpoints());
-    text += "\nThe grains at that moment: " + recorder_->record_crash(*state_) +
-            "\nLast good checkpoint: " + (last ? *last : std::string("none was written yet"));
-    report("failed", text.substr(0, text.find('\n')));
-    log("physics error: " + text);
-    throw PhysicsError(text);
+    fail(error, "Last good checkpoint: " + (last ? *last : std::string("none is left")));
   }
 }
 
+/// Leaves the grains as they are and the reason in run.log and progress.json, then throws on with both.
+void Simulation::fail(const PhysicsError& error, const std::string& remedy) {
+  const std::string text = std::string(error.what()) +
+                           "\nThe grains at that moment: " + recorder_->record_crash(*state_) + "\n" + remedy;
+  report("failed", text.substr(0, text.find('\n')));
+  log("physics error: " + text);
+  throw PhysicsError(text);
+}
+
 RunEnd Simulation::run_stages(const RunLimits& limits) {
-  while (memory_.stage < static_cast<std::int64_t>(scene_->stages.size())) {
+  while (!finished()) {
     if (const auto stopped = run_stage(limits)) {
       save(*stopped == RunEnd::interrupted ? "interrupted" : "stopped at a limit");
       report("stopped");
       return *stopped;
     }
   }
-  save("finished");
-  report("finished");
+  report("finished");  // the end of the last stage left a checkpoint
   return RunEnd::finished;
 }
 
@@ -130,20 +146,23 @@ void Simulation::begin_stage() {
 }
 
 void Simulation::end_stage() {
+  const std::string name = stage().name;
   recorder_->record_series(*state_, *step_, memory_);
   recorder_->record_frame(*state_, memory_);
-  results_.push_back(measure_bed(*state_, *scene_, stage().name, discharge_rate(), memory_.stage_wall_seconds));
+  results_.push_back(measure_bed(*state_, *scene_, name, discharge_rate(), memory_.stage_wall_seconds));
   write_bed_table(folder_.beds(), results_);
   std::ostringstream text;
-  text << stage().name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds)
+  text << name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds)
        << " of wall time: " << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
   const bool wants_rest = std::holds_alternative<UntilAtRest>(stage().until);
   if (wants_rest && !came_to_rest()) text << "; NOT at rest: stopped by at_most";
-  write_slice_svg(folder_.slice(stage().name), *state_, *scene_, stage().name);
+  write_slice_svg(folder_.slice(name), *state_, *scene_, name);
   log("stage " + text.str());
   line_.note("stage " + text.str());
   ++memory_.stage;
   memory_.stage_begun = false;
+  save(finished() ? "finished" : "end of a stage");
+  recorder_->keep_stage(name, state_->step);
 }
 
 bool Simulation::stage_is_over() {
@@ -209,7 +228,7 @@ void Simulation::save(const char* what) {
 /// Wall time still to go in this stage and, where they are of known length, the next ones [s]; negative: not known.
 double Simulation::eta() const {
   const double done = state_->time - stage_time_begin_, spent = session_seconds_ - stage_session_begin_;
-  if (done <= 0 || spent < 1) return -1;
+  if (done <= 0 || spent < least_to_judge) return -1;
   double left = 0;
   for (auto n = static_cast<std::size_t>(memory_.stage); n < scene_->stages.size(); ++n) {
     const auto* time = std::get_if<UntilTime>(&scene_->stages[n].until);
@@ -222,7 +241,7 @@ double Simulation::eta() const {
 
 void Simulation::report(const char* run_state, const std::string& message) {
   last_report_ = session_seconds_;
-  const bool over = memory_.stage >= static_cast<std::int64_t>(scene_->stages.size());
+  const bool over = finished();
   Progress p;
   p.state = run_state;
   p.stage = over ? scene_->stages.back().name : stage().name;
@@ -237,9 +256,10 @@ void Simulation::report(const char* run_state, const std::string& message) {
   p.eta_seconds = over ? 0 : eta();
   p.message = message;
   write_progress(folder_.progress(), p);
+  if (session_seconds_ < least_to_judge) return;  // of so short a time a rate would say little
   const double spent = session_seconds_ - stage_session_begin_;
   const double steps = dt_ > 0 ? (state_->time - stage_time_begin_) / dt_ : 0;
-  line_.show(p, spent > 0 ? steps * state_->particles.count() / spent : 0, session_seconds_);
+  line_.show(p, spent >= least_to_judge ? steps * state_->particles.count() / spent : 0, session_seconds_);
 }
 
 void Simulation::log(const std::string& line) {

@@ -12,6 +12,7 @@
 #include "apps/recorder.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/run_memory.hpp"
+#include "core/require.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "kernels/time_step.hpp"
@@ -28,7 +29,8 @@ struct RunLimits {
 
 class Simulation {
 public:
-  /// A new run into an empty or missing folder.
+  /// A new run into an empty or missing folder. When its physics breaks down at once, PhysicsError is thrown after
+  /// a crash frame and a progress.json that says so were written, and no checkpoint.
   static Simulation begin(Scene scene, const RunFolder& folder);
   /// The run in `folder` from its newest valid checkpoint. `scene` is that of the folder.
   static Simulation resume(Scene scene, const RunFolder& folder);
@@ -37,6 +39,8 @@ public:
   /// physics breakdown, which throws PhysicsError after a crash frame was written.
   RunEnd run(const RunLimits& limits);
 
+  /// Whether the last stage is done: run() has nothing to do.
+  bool finished() const { return memory_.stage >= static_cast<std::int64_t>(scene_->stages.size()); }
   const State& state() const { return *state_; }
   Stopwatch& stopwatch() { return step_->stopwatch(); }
   const std::vector<StageResult>& results() const { return results_; }
@@ -45,6 +49,7 @@ private:
   Simulation(Scene scene, const RunFolder& folder)
       : scene_(std::make_unique<Scene>(std::move(scene))), folder_(folder) {}
 
+  [[noreturn]] void fail(const PhysicsError& error, const std::string& remedy);
   RunEnd run_stages(const RunLimits& limits);
   std::optional<RunEnd> run_stage(const RunLimits& limits);
   void begin_stage();

@@ -259,17 +259,25 @@ void draw_colour_bar(Drawing& d, double top_speed) {
   d.words(left, margin_top + 10, "speed [m/s]", "");
 }
 
+std::string domain_text(const Domain& domain) {
+  if (domain.kind == DomainKind::slot) return "slot";
+  if (domain.kind == DomainKind::full) return "full vessel";
+  return "sector of " + short_number(360.0 / domain.order) + " degrees";
+}
+
 }  // namespace
 
-void write_slice_svg(const std::string& path, const State& state, const Scene& scene, const std::string& title) {
+void write_slice_svg(const std::string& path, const State& state, const Scene& scene, const std::string& stage) {
   const bool slot = scene.domain.kind == DomainKind::slot;
   const std::vector<Disc> discs = slice(state);
   const double top_speed = fastest(discs);
   Drawing drawing(view(discs, state, slot));
-  const std::string heading = title + ", t = " + short_number(state.time) + " s";
-  drawing.add("<title>" + escaped(heading) + "</title>");
+  const std::string vessel = (scene.name.empty() ? "" : scene.name + ", ") + domain_text(scene.domain);
+  const std::string moment = stage + ", t = " + short_number(state.time) + " s";
+  drawing.add("<title>" + escaped(vessel + ", " + moment) + "</title>");
   drawing.rectangle(0, 0, drawing.right() + margin_right, drawing.bottom() + margin_low, "fill=\"#fff\"");
-  drawing.words(margin_left, 30, heading, "font-size=\"17\"");
+  drawing.words(margin_left, 20, vessel, "font-size=\"17\"");
+  drawing.words(margin_left, 41, moment, "font-size=\"17\"");
   drawing.add("<clipPath id=\"plot\">");
   drawing.rectangle(margin_left, margin_top, drawing.right() - margin_left, drawing.bottom() - margin_top, "");
   drawing.add("</clipPath>\n<g clip-path=\"url(#plot)\">");

@@ -18,7 +18,13 @@ void bound_spinning(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("KMP_BLOCKTIME") || std::getenv("OMP_WAIT_POLICY")) return;
   ::setenv("GOMP_SPINCOUNT", "1000", 0);  // gcc's runtime: rounds, a few microseconds (perf/README.md, "Waiting")
   ::setenv("KMP_BLOCKTIME", "1", 0);      // clang's runtime: milliseconds
-  ::execv("/proc/self/exe", argv);        // comes back only when it failed: then go on as we are
+  // By its own path, so that ps shows its name and not "exe". Comes back only when it failed: then go on as we are.
+  char path[4096];
+  const ssize_t length = ::readlink("/proc/self/exe", path, sizeof path - 1);
+  if (length > 0) {
+    path[length] = '\0';
+    ::execv(path, argv);
+  }
 #else
   (void)argv;
 #endif

@@ -149,6 +149,7 @@ struct RunOptions {
 };
 
 struct Scene {
+  std::string name;                    // of the scene's file, without folder and extension: for titles
   std::string text;                    // the TOML text with --set applied to it listed below
   std::vector<std::string> overrides;  // key=value
   Domain domain;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string_view>
 
+#include "core/checksum.hpp"
 #include "io/atomic_file.hpp"
 #include "io/hdf5_file.hpp"
 
@@ -21,17 +22,9 @@ namespace fs = std::filesystem;
 
 constexpr int format_version = 2;
 constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
-constexpr std::string_view file_prefix = "checkpoint_", file_suffix = ".hdf", part_suffix = ".hdf.part";
 using Head = std::array<char, head_size>;
 
 // ---- the head
-
-/// FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
-constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
-std::uint64_t fnv1a(std::uint64_t hash, const unsigned char* data, std::size_t size) {
-  for (std::size_t k = 0; k < size; ++k) hash = (hash ^ data[k]) * 0x100000001b3u;
-  return hash;
-}
 
 /// Head of a file with `bytes` bytes after the head that have the checksum `hash`.
 Head make_head(std::uint64_t bytes, std::uint64_t hash) {
@@ -290,51 +283,7 @@ void check_lengths(const State& s, const std::string& path) {
   if (!fit) throw_file_error(path, "the checkpoint is damaged: lengths of its arrays do not fit together");
 }
 
-/// Step in the name of a checkpoint file; nothing for other names.
-std::optional<std::int64_t> step_in_name(const std::string& name) {
-  if (name.size() <= file_prefix.size() + file_suffix.size() ||
-      name.compare(0, file_prefix.size(), file_prefix) != 0 ||
-      name.compare(name.size() - file_suffix.size(), file_suffix.size(), file_suffix) != 0) {
-    return std::nullopt;
-  }
-  std::int64_t step = 0;
-  const char* first = name.data() + file_prefix.size();
-  const char* last = name.data() + name.size() - file_suffix.size();
-  const auto [end, error] = std::from_chars(first, last, step);
-  if (error != std::errc{} || end != last || *first == '-') return std::nullopt;
-  return step;
-}
-
-/// Names in a folder. Throws FileError.
-std::vector<std::string> names_in(const std::string& folder) {
-  std::error_code error;
-  std::vector<std::string> names;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    names.push_back(at->path().filename().string());
-  }
-  if (error) throw FileError(folder + ": cannot read the folder: " + error.message());
-  return names;
-}
-
-/// Names of the checkpoints in a folder, most steps first.
-std::vector<std::string> checkpoints_in(const std::string& folder) {
-  std::vector<std::pair<std::int64_t, std::string>> found;
-  for (const std::string& name : names_in(folder)) {
-    if (const auto step = step_in_name(name)) found.emplace_back(*step, name);
-  }
-  std::sort(found.rbegin(), found.rend());
-  std::vector<std::string> names;
-  for (auto& entry : found) names.push_back(std::move(entry.second));
-  return names;
-}
-
 }  // namespace
-
-std::string checkpoint_path(const std::string& folder, std::int64_t step) {
-  char name[64];
-  std::snprintf(name, sizeof name, "checkpoint_%012lld.hdf", static_cast<long long>(step));
-  return folder + "/" + name;
-}
 
 void write_checkpoint(const std::string& path, const State& state, const CheckpointExtra& extra) {
   PartFile part(path);
@@ -395,30 +344,6 @@ bool checkpoint_is_valid(const std::string& path) {
     return true;
   } catch (const FileError&) {
     return false;
-  }
-}
-
-std::optional<std::string> newest_valid_checkpoint(const std::string& folder) {
-  for (const std::string& name : checkpoints_in(folder)) {
-    const std::string path = folder + "/" + name;
-    if (checkpoint_is_valid(path)) return path;
-  }
-  return std::nullopt;
-}
-
-void keep_last(const std::string& folder, std::size_t count) {
-  std::vector<std::string> names = checkpoints_in(folder);
-  names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(count, names.size())));
-  for (const std::string& name : names_in(folder)) {
-    if (name.compare(0, file_prefix.size(), file_prefix) == 0 && name.size() > part_suffix.size() &&
-        name.compare(name.size() - part_suffix.size(), part_suffix.size(), part_suffix) == 0) {
-      names.push_back(name);
-    }
-  }
-  for (const std::string& name : names) {
-    std::error_code error;
-    fs::remove(folder + "/" + name, error);
-    if (error) throw FileError(folder + "/" + name + ": cannot remove: " + error.message());
   }
 }
 

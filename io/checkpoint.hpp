@@ -47,6 +47,14 @@ bool checkpoint_is_valid(const std::string& path);
 /// cannot be read.
 std::optional<std::string> newest_valid_checkpoint(const std::string& folder);
 
+/// A whole checkpoint of this step in the folder, whatever its name; nothing when there is none. Throws FileError
+/// when the folder cannot be read.
+std::optional<std::string> checkpoint_of_step(const std::string& folder, std::int64_t step);
+
+/// Gives a checkpoint a second name that keep_last leaves alone: a link where the disk has links, else a copy.
+/// Post: `second` holds the checkpoint, or FileError was thrown and `second` is as before.
+void keep_as(const std::string& path, const std::string& second);
+
 /// Removes all checkpoints of a folder but the `count` with the most steps, and what broken writes left behind.
 /// Throws FileError.
 void keep_last(const std::string& folder, std::size_t count);

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "core/restitution.hpp"
 #include "core/time_scales.hpp"
 
 namespace wedge {
@@ -67,6 +68,21 @@ void check_rolling(SceneReading& reading, const Scene& scene) {
   }
 }
 
+/// A contact time is half a period of the damped spring: from critical damping on there is none.
+void check_contact_time(SceneReading& reading, const Scene& scene) {
+  if (scene.contact.law != ContactLaw::linear || !(scene.contact.contact_time > 0)) return;
+  for (const Interaction& pair : scene.interactions.entries()) {
+    const double damping = pair.restitution && *pair.restitution > 0
+                               ? damping_for(scene.contact.law, scene.contact.tension, *pair.restitution)
+                               : pair.damping_normal;
+    if (damping < 1) continue;
+    reading.diagnostics.error(reading.place("contact.contact_time"),
+                              "a contact damped critically or more has no 'contact_time'",
+                              "give a damping below 1 (a restitution above 0.14 without tension), or 'stiffness'");
+    return;
+  }
+}
+
 void check_fill(SceneReading& reading, const Scene& scene) {
   const auto* fill = std::get_if<RandomFill>(&scene.particles.grains);
   const double largest = largest_diameter(scene.particles);
@@ -105,11 +121,7 @@ void check_thickness(SceneReading& reading, const Scene& scene) {
     reading.diagnostics.error(reading.place("domain.width"), "the slot is too narrow: a grain would meet itself",
                               "make it at least " + plain_number(least_width * largest) + " m wide");
   if (domain.kind != DomainKind::sector || domain.order < 2) return;
-  double radius = 0;
-  for (const WallDescription& wall : scene.walls)
-    for (const Eigen::Vector2d& point : wall.profile) radius = std::max(radius, point.x());
-  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains); fill && radius <= 0)
-    radius = fill->r_high;
+  const double radius = widest_radius(scene);
   const double chord = 2 * radius * std::sin(numbers::pi / domain.order);
   if (radius > 0 && chord < least_width * largest) {
     const double most = numbers::pi / std::asin(std::min(1.0, least_width * largest / (2 * radius)));
@@ -160,6 +172,15 @@ void check_stage_ends(SceneReading& reading, const Scene& scene) {
 
 }  // namespace
 
+double widest_radius(const Scene& scene) {
+  double radius = 0;
+  for (const WallDescription& wall : scene.walls)
+    for (const Eigen::Vector2d& point : wall.profile) radius = std::max(radius, point.x());
+  if (const auto* fill = std::get_if<RandomFill>(&scene.particles.grains); fill && radius <= 0)
+    radius = fill->r_high;
+  return radius;
+}
+
 double fill_volume(const Domain& domain, const RandomFill& fill) {
   const double height = fill.z_high - fill.z_low;
   if (domain.kind == DomainKind::slot) return (fill.r_high - fill.r_low) * domain.slot_width * height;
@@ -170,6 +191,7 @@ double fill_volume(const Domain& domain, const RandomFill& fill) {
 void check_scene(SceneReading& reading, const Scene& scene) {
   check_pairs(reading, scene);
   check_rolling(reading, scene);
+  check_contact_time(reading, scene);
   check_fill(reading, scene);
   check_thickness(reading, scene);
   check_step(reading, scene, scene.time_step, "time.step");

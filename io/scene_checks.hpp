@@ -12,6 +12,9 @@ void check_scene(SceneReading& reading, const Scene& scene);
 /// Volume [m3] of the fill region of the whole vessel, or of the slot.
 double fill_volume(const Domain& domain, const RandomFill& fill);
 
+/// Largest distance of a wall from the axis [m], without walls that of the fill region.
+double widest_radius(const Scene& scene);
+
 /// A step that lasts more than these parts of the Rayleigh time is refused, or doubtful.
 constexpr double refused_step = 40.0 / 100.0, doubtful_step = 20.0 / 100.0;
 /// Law `linear`: the same, in parts of the contact time.

@@ -22,8 +22,12 @@ Scene parse_scene(const std::string& text, const std::string& file_name, const s
                   std::string base_folder);
 
 /// The scene as TOML text, every default written out, lengths in metres, paths absolute, free of locale. Reads back
-/// to an equal Scene (but for `text` and `overrides`).
+/// to an equal Scene (but for `name`, `text` and `overrides`).
 std::string resolved_scene(const Scene& scene);
+
+/// Throws FileError when the run, the checkpoint or the file of grains that the scene is to start from is not
+/// there. Reading a scene does not ask for it: a run goes on without.
+void require_sources(const Scene& scene);
 
 /// What is doubtful in a checked scene but not wrong, a sentence each.
 std::vector<std::string> scene_warnings(const Scene& scene);

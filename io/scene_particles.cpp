@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/grain_sizes.hpp"
+#include "core/require.hpp"
 #include "io/scene_sections.hpp"
+#include "io/state_csv.hpp"
 
 namespace wedge {
 
@@ -113,6 +115,71 @@ void read_region(TableReader& particles, const Scene& scene, RandomFill& fill) {
   t.finish();
 }
 
+enum class GrainSource { fill, file };
+
+bool overridden(TableReader& particles, const char* key) {
+  return particles.has(key) && particles.place(key).origin > 0;
+}
+
+/// Where both a file and keys of a fill stand, a source given on the command line replaces the one of the scene.
+GrainSource source_of(TableReader& particles) {
+  if (!particles.has("file")) return GrainSource::fill;
+  if (overridden(particles, "file")) return GrainSource::file;
+  const bool fill =
+      overridden(particles, "count") || overridden(particles, "region") || overridden(particles, "sizes");
+  return fill ? GrainSource::fill : GrainSource::file;
+}
+
+/// Whether a key of the scene's fill steps aside for a file given on the command line.
+bool replaced_by_file(TableReader& particles, const char* key) {
+  return overridden(particles, "file") && !overridden(particles, key);
+}
+
+/// The file of grains as an absolute path; complains when it is no path.
+std::string read_path(TableReader& particles) {
+  const std::string meaning = "the path of a table of grains, such as \"state.csv\"";
+  const auto path = particles.text("file", meaning);
+  if (path && path->empty()) particles.error("file", "'file' is empty", meaning);
+  return path && !path->empty() ? absolute_path(particles.reading(), *path, particles.place("file")) : "";
+}
+
+/// Mean diameter [m] of the grains in a file; 0 when it cannot be read.
+double mean_diameter_in(const std::string& path, const Scene& scene, int material) {
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(m.name);
+  try {
+    const Particles grains = read_state_csv(path, {0, material}, names);
+    double above = 0;  // the first radius: so the mean of equal grains is exact
+    for (const double radius : grains.radius) above += radius - grains.radius[0];
+    return grains.count() > 0 ? 2 * (grains.radius[0] + above / grains.count()) : 0;
+  } catch (const FileError&) {
+    return 0;  // whoever needs the grains says what is wrong with their file
+  }
+}
+
+/// Sizes of grains that come from a file. `diameter` is for files without radii. "d" is, if it is there, the mean
+/// diameter of the fill that the file replaces: the vessel keeps its size; else the mean of the file.
+void read_file_sizes(TableReader& particles, Scene& scene, std::optional<int> material) {
+  StateFile file;
+  file.material = material.value_or(0);
+  SceneReading& reading = particles.reading();
+  RandomFill replaced;
+  const bool distribution = particles.has("diameter") && particles.node("diameter")->is_table();
+  if (particles.has("sizes") && replaced_by_file(particles, "sizes"))
+    replaced.sizes = read_size_classes(particles, scene, material);
+  else if (distribution && replaced_by_file(particles, "diameter"))
+    read_diameter(particles, replaced, file.material);
+  else
+    file.diameter = particles.number("diameter", diameter_quantity).value_or(0);
+  scene.particles.grains = replaced;
+  reading.mean_diameter = file.diameter > 0 ? file.diameter : mean_diameter(scene.particles);
+  const auto path = particles.node("file")->value<std::string>();
+  if (!(reading.mean_diameter > 0) && path && !particles.has("sizes") && !particles.has("diameter"))
+    reading.mean_diameter =
+        mean_diameter_in(absolute_path(reading, *path, particles.place("file")), scene, file.material);
+  scene.particles.grains = file;
+}
+
 }  // namespace
 
 std::optional<int> read_material(TableReader& table, const Scene& scene, const std::string& key,
@@ -175,23 +242,20 @@ void read_grain_sizes(TableReader& particles, Scene& scene) {
   const std::optional<int> material = classes_with_materials
                                           ? only_material(scene)
                                           : read_material(particles, scene, "material", only_material(scene));
-  if (particles.has("file")) {
-    StateFile file;
-    file.material = material.value_or(0);
-    file.diameter = particles.number("diameter", diameter_quantity).value_or(0);
-    scene.particles.grains = file;
-  } else {
-    RandomFill fill;
-    if (particles.has("sizes") && particles.has("diameter"))
-      particles.error("sizes", "both 'diameter' and 'sizes' are given", "keep one of them");
-    if (particles.has("sizes"))
-      fill.sizes = read_size_classes(particles, scene, material);
-    else if (particles.has("diameter"))
-      read_diameter(particles, fill, material.value_or(0));
-    else
-      particles.missing("diameter", "write diameter = 0.005, sizes = [...] or file = \"state.csv\"");
-    scene.particles.grains = fill;
+  if (source_of(particles) == GrainSource::file) {
+    read_file_sizes(particles, scene, material);
+    return;
   }
+  RandomFill fill;
+  if (particles.has("sizes") && particles.has("diameter"))
+    particles.error("sizes", "both 'diameter' and 'sizes' are given", "keep one of them");
+  if (particles.has("sizes"))
+    fill.sizes = read_size_classes(particles, scene, material);
+  else if (particles.has("diameter"))
+    read_diameter(particles, fill, material.value_or(0));
+  else
+    particles.missing("diameter", "write diameter = 0.005, sizes = [...] or file = \"state.csv\"");
+  scene.particles.grains = fill;
   particles.reading().mean_diameter = mean_diameter(scene.particles);
 }
 
@@ -200,13 +264,10 @@ void read_grain_source(TableReader& particles, Scene& scene) {
   scene.particles.seed = static_cast<std::uint64_t>(seed);
   if (auto* file = std::get_if<StateFile>(&scene.particles.grains)) {
     for (const char* key : {"sizes", "count", "region", "speed"})
-      if (particles.has(key))
+      if (particles.has(key) && !replaced_by_file(particles, key))
         particles.error(key, "'" + std::string(key) + "' has no meaning when the grains come from a file",
                         "remove either it or 'file'");
-    const auto path = particles.text("file", "the path of a table of grains, such as \"state.csv\"");
-    if (path && path->empty())
-      particles.error("file", "'file' is empty", "name a table of grains, such as \"state.csv\"");
-    if (path && !path->empty()) file->path = absolute_path(particles.reading(), *path, particles.place("file"));
+    file->path = read_path(particles);
     return;
   }
   RandomFill& fill = std::get<RandomFill>(scene.particles.grains);

@@ -81,6 +81,7 @@ Scene parse_scene(const std::string& text, const std::string& file_name, const s
   Scene scene = read_tree(reading, root);
   check_scene(reading, scene);
   reading.diagnostics.throw_if_wrong();
+  scene.name = std::filesystem::path(file_name).stem().string();
   scene.text = text;
   scene.overrides = overrides;
   return scene;
@@ -94,6 +95,20 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
   if (!file.is_open() || file.bad())
     throw FileError("cannot read the scene file '" + path + "': " + std::strerror(errno));
   return parse_scene(text, path, overrides, std::filesystem::path(path).parent_path().string());
+}
+
+void require_sources(const Scene& scene) {
+  const auto there = [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+  };
+  const auto* file = std::get_if<StateFile>(&scene.particles.grains);
+  if (!scene.start_from.empty() && !there(scene.start_from))
+    throw FileError("start.from: '" + scene.start_from +
+                    "' does not exist; name the folder of a run, or a file of its folder checkpoints");
+  if (scene.start_from.empty() && file && !there(file->path))
+    throw FileError("particles.file: '" + file->path +
+                    "' does not exist; name a table of grains, such as `wedge export --to csv` writes");
 }
 
 }  // namespace wedge

@@ -20,7 +20,9 @@ Until read_until(TableReader& t) {
     const std::string word = *node->value<std::string>();
     if (word == "at rest") return UntilAtRest{};
     if (word == "empty") return UntilEmpty{};
-    t.error("until", "unknown end of a stage \"" + word + "\"", suggestion(word, {"at rest", "empty"}));
+    const std::string near = suggestion(word, {"at rest", "empty"});
+    t.error("until", "unknown end of a stage \"" + word + "\"",
+            near.rfind("did you mean", 0) == 0 ? near + " Or " + until_example : until_example);
   } else if (node->is_table()) {
     TableReader inner(t.reading(), node->as_table(), t.path("until"), "'until'");
     if (!inner.has("discharged")) inner.missing("discharged", until_example);

@@ -112,7 +112,7 @@ std::optional<double> TableReader::length_in(const toml::node& node, const std::
   }
   if (!(reading_.mean_diameter > 0)) {
     reading_.diagnostics.error(at, "'" + name + "' is given in diameters, but the diameter is not known",
-                               "give [particles] a diameter, or write metres");
+                               "give [particles] a diameter or a file of grains that can be read, or write metres");
     return {};
   }
   const double value = diameters * reading_.mean_diameter;
@@ -148,7 +148,11 @@ std::optional<std::int64_t> TableReader::integer(const std::string& key, const s
   const toml::node* found = node(key);
   if (!found) return {};
   const std::optional<double> whole = found->is_floating_point() ? found->value<double>() : std::nullopt;
-  if (!found->is_integer() && !(whole && std::floor(*whole) == *whole && std::fabs(*whole) < 9e15)) {
+  if (whole && !(std::floor(*whole) == *whole && std::fabs(*whole) < 9e15)) {
+    error(key, "'" + key + "' must be a whole number, not " + plain_number(*whole), meaning);
+    return {};
+  }
+  if (!found->is_integer() && !whole) {
     wrong_type(*found, key, "a whole number", meaning);
     return {};
   }

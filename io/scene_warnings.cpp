@@ -1,12 +1,13 @@
 // scene_warnings.cpp: what is doubtful in a scene but not wrong.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
+#include <utility>
 
 #include "core/time_scales.hpp"
 #include "io/scene_checks.hpp"
 #include "io/scene_file.hpp"
+#include "io/scene_gaps.hpp"
 
 namespace wedge {
 
@@ -25,29 +26,6 @@ void doubt_step(const Scene& scene, double step, const std::string& where, Warni
   if (impact > 0 && impact < 10 * step)
     warnings.push_back("with " + where + " of " + short_number(step) + " s a collision at 1 m/s lasts only " +
                        short_number(impact / step) + " steps; check that results do not depend on it");
-}
-
-/// Ends of walls that miss another wall's vertex by a little: grains would meet two edges where one was meant.
-void doubt_joints(const Scene& scene, Warnings& warnings) {
-  const double near = 0.1 * mean_diameter(scene.particles), same = 1e-9;
-  for (std::size_t a = 0; a < scene.walls.size(); ++a) {
-    for (std::size_t b = 0; b < scene.walls.size(); ++b) {
-      if (a == b) continue;
-      const auto& ends = scene.walls[a].profile;
-      const auto& others = scene.walls[b].profile;
-      for (const Eigen::Vector2d& end : {ends.front(), ends.back()}) {
-        for (const Eigen::Vector2d& other : others) {
-          const bool other_is_end = &other == &others.front() || &other == &others.back();
-          if (other_is_end && a > b) continue;  // told from the other side
-          const double gap = (end - other).norm();
-          if (gap > same && gap < near)
-            warnings.push_back("the walls '" + scene.walls[a].name + "' and '" + scene.walls[b].name +
-                               "' nearly join: they are " + short_number(gap) + " m apart at (" +
-                               short_number(end.x()) + ", " + short_number(end.y()) + ")");
-        }
-      }
-    }
-  }
 }
 
 /// Whether the segment from p to q has a part strictly inside the box (Liang, Barsky, ACM TOG 3 (1984) 1-22).
@@ -85,6 +63,22 @@ void doubt_fill(const Scene& scene, Warnings& warnings) {
   }
 }
 
+/// Below an arc of 4 d at the wall a sector is thin everywhere: Yang et al. (2014), Ind. Eng. Chem. Res. 53, 8245,
+/// find its coordination number too low wherever the arc r theta is shorter than that.
+void doubt_thickness(const Scene& scene, Warnings& warnings) {
+  constexpr double least_arc = 4;  // mean diameters
+  const double diameter = mean_diameter(scene.particles), radius = widest_radius(scene);
+  if (scene.domain.kind != DomainKind::sector || !(diameter > 0 && radius > 0)) return;
+  const double circle = 2 * numbers::pi * radius / diameter, arc = circle / scene.domain.order;
+  if (arc >= least_arc) return;
+  const double order = std::max(1.0, std::floor(circle / least_arc));
+  warnings.push_back(
+      "the sector is thin: at the largest radius, " + short_number(radius) + " m, its arc is " +
+      short_number(std::round(100 * arc) / 100) +
+      " d long; below 4 d coordination numbers come out too low everywhere; use an angle of at least " +
+      plain_number(360 / order) + " degrees");
+}
+
 void doubt_pairs(const Scene& scene, Warnings& warnings) {
   for (int a = 0; a < scene.interactions.kinds(); ++a) {
     for (int b = a; b < scene.interactions.kinds(); ++b) {
@@ -109,17 +103,13 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   for (const Stage& stage : scene.stages)
     if (stage.time_step)
       doubt_step(scene, *stage.time_step, "the time step of stage '" + stage.name + "'", warnings);
-  doubt_joints(scene, warnings);
+  for (std::string& gap : wall_gaps(scene)) warnings.push_back(std::move(gap));
+  doubt_thickness(scene, warnings);
   doubt_fill(scene, warnings);
   doubt_pairs(scene, warnings);
   for (const Stage& stage : scene.stages)
     if (stage.at_most <= 0 && !std::holds_alternative<UntilTime>(stage.until))
       warnings.push_back("the stage '" + stage.name + "' may never end: give it at_most = seconds");
-  const auto* file = std::get_if<StateFile>(&scene.particles.grains);
-  if (file && !std::filesystem::exists(file->path))
-    warnings.push_back("the file of grains '" + file->path + "' does not exist");
-  if (!scene.start_from.empty() && !std::filesystem::exists(scene.start_from))
-    warnings.push_back("the run or checkpoint to start from, '" + scene.start_from + "', does not exist");
   return warnings;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/material.hpp"
+#include "core/restitution.hpp"
 #include "core/scene.hpp"
 #include "core/vec3.hpp"
 
@@ -32,20 +33,6 @@ struct ContactResponse {
 
 /// The smallest number whose square root and inverse are finite: keeps x / |x| defined at x = 0.
 inline constexpr double tiny = 1e-150;
-
-/// Damping ratio (of critical, at the tangent stiffness) that gives restitution e for a Hertz contact that may
-/// pull at separation: sqrt(5/6) beta, beta = -ln e / sqrt(pi^2 + ln^2 e).
-/// Tsuji, Tanaka, Ishida (1992), Powder Technol. 71, 239, in the closed form of Antypov & Elliott (2011), EPL 94,
-/// 50004.
-inline double hertz_damping_ratio(double restitution) {
-  const double l = -std::log(restitution);
-  return std::sqrt(5.0 / 6.0) * l / std::hypot(3.14159265358979323846, l);
-}
-/// The same for a linear spring: beta itself.
-inline double linear_damping_ratio(double restitution) {
-  const double l = -std::log(restitution);
-  return l / std::hypot(3.14159265358979323846, l);
-}
 
 /// 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa].
 inline double effective_young(const Material& a, const Material& b) {

@@ -1,5 +1,5 @@
 // hertz_mindlin.hpp: Hertz normal force, no-slip Mindlin stiffness, Coulomb cap, damping from a restitution: the
-// form most open codes use. Mindlin (1949), J. Appl. Mech. 16, 259; damping as in contact_law.hpp.
+// form most open codes use. Mindlin (1949), J. Appl. Mech. 16, 259; damping as in core/restitution.hpp.
 #pragma once
 
 #include "kernels/contact_law.hpp"
@@ -18,7 +18,8 @@ struct HertzMindlin {
 
   static Coefficients prepare(const Material& a, const Material& b, const Interaction& c,
                               const ContactModel& model) {
-    const double c_n = c.restitution ? hertz_damping_ratio(*c.restitution) : c.damping_normal;
+    const double c_n =
+        c.restitution ? damping_for(ContactLaw::hertz_mindlin, model.tension, *c.restitution) : c.damping_normal;
     const double c_t = c.restitution ? c_n : c.damping_tangential;
     return {effective_young(a, b),       effective_shear(a, b), c.sliding, c.rolling, c_n, c_t,
             lowest_normal(model.tension)};

@@ -19,7 +19,8 @@ struct LinearLaw {
   };
 
   static Coefficients prepare(const Material&, const Material&, const Interaction& c, const ContactModel& model) {
-    const double c_n = c.restitution ? linear_damping_ratio(*c.restitution) : c.damping_normal;
+    const double c_n =
+        c.restitution ? damping_for(ContactLaw::linear, model.tension, *c.restitution) : c.damping_normal;
     const double c_t = c.restitution ? c_n : c.damping_tangential;
     // contact time: half a period of the damped oscillator, t_c = pi / (omega_0 sqrt(1 - c_n^2))
     const double omega =

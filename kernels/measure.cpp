@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/checksum.hpp"
 #include "core/parallel.hpp"
 
 namespace wedge {
@@ -57,12 +58,12 @@ double mean_kinetic_energy(const State& state) {
 std::uint64_t state_hash(const State& state) {
   const Particles& p = state.particles;
   const ContactTable& c = state.contacts;
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  std::uint64_t hash = fnv_start;
   const auto mix = [&](const Vec3& v) {
     for (const double x : {v.x, v.y, v.z}) {
-      std::uint64_t bits;
-      std::memcpy(&bits, &x, sizeof bits);
-      for (int b = 0; b < 64; b += 8) hash = (hash ^ ((bits >> b) & 0xff)) * 0x100000001b3u;
+      unsigned char bytes[sizeof x];  // lowest first, as the processors have them that wedge runs on
+      std::memcpy(bytes, &x, sizeof x);
+      hash = fnv1a(hash, bytes, sizeof x);
     }
   };
   std::vector<std::size_t> order(static_cast<std::size_t>(p.count()));

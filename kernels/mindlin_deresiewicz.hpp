@@ -23,7 +23,8 @@ struct MindlinDeresiewicz {
     const double young = effective_young(a, b);
     // dt_max / (mu_s dn); the damping needs mu_s / limit, which is 1 / slope and stays finite without friction
     const double slope = young / (4 * effective_shear(a, b));
-    const double c_n = c.restitution ? hertz_damping_ratio(*c.restitution) : c.damping_normal;
+    const double c_n = c.restitution ? damping_for(ContactLaw::mindlin_deresiewicz, model.tension, *c.restitution)
+                                     : c.damping_normal;
     const double c_t = c.restitution ? c_n : c.damping_tangential;
     return {young,
             c.sliding,

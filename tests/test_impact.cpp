@@ -106,14 +106,17 @@ TEST_CASE("restitution of the default law depends on c_n alone", "[impact]") {
   }
 }
 
-TEST_CASE("every law gives the restitution asked for", "[impact]") {
+TEST_CASE("every law gives the restitution asked for, with and without tension", "[impact]") {
   for (const ContactLaw law : {ContactLaw::mindlin_deresiewicz, ContactLaw::hertz_mindlin, ContactLaw::linear}) {
-    for (const double e : {0.4, 0.8}) {
-      Scene scene = plain_scene(1e7, 0.3, 3800);
-      scene.contact.law = law;
-      scene.contact.normal_stiffness = 1e4;
-      scene.interactions(0, 0).restitution = e;
-      CHECK(head_on(scene, 0.0025, 0.3, 1e-7).rebound / 0.3 == Approx(e).margin(1e-3));
+    for (const Tension tension : {Tension::full, Tension::none}) {
+      for (const double e : {0.4, 0.8}) {
+        Scene scene = plain_scene(1e7, 0.3, 3800);
+        scene.contact.law = law;
+        scene.contact.tension = tension;
+        scene.contact.normal_stiffness = 1e4;
+        scene.interactions(0, 0).restitution = e;
+        CHECK(head_on(scene, 0.0025, 0.3, 1e-7).rebound / 0.3 == Approx(e).margin(1e-3));
+      }
     }
   }
 }

@@ -14,61 +14,13 @@
 #include "io/scene_file.hpp"
 #include "kernels/measure.hpp"
 #include "tests/catch.hpp"
+#include "tests/little_hopper.hpp"
 #include "tests/scratch_folder.hpp"
 
 using namespace wedge;
+using namespace wedge::test;
 
 namespace {
-
-/// A little hopper: a bed of two sizes and materials in a sector falls, settles and runs out.
-const char* little_hopper = R"(
-[domain]
-angle = 60
-outlet = { z = -0.01 }
-[[wall]]
-name = "shell"
-profile = [[0.03, 0], [0.03, 0.3]]
-material = "wall"
-[[wall]]
-name = "floor"
-profile = [[0.02, 0], [0.03, 0]]
-material = "wall"
-[[wall]]
-name = "plug"
-profile = [[0, 0], [0.02, 0]]
-material = "wall"
-[material.grain]
-density = 3800
-young = 1e7
-poisson = 0.3
-[material.wall]
-density = 3800
-young = 1e7
-poisson = 0.3
-[contact.grain-grain]
-sliding = 0.6
-rolling = "0.02 d"
-[contact.grain-wall]
-sliding = 0.5
-rolling = "0.02 d"
-[particles]
-sizes = [{ diameter = 0.005, fraction = 0.5, material = "grain" }, { diameter = 0.004, fraction = 0.5, material = "grain" }]
-count = 1500
-region = { r = [0, 0.03], z = [0, 0.26] }
-speed = 0.2
-[[stage]]
-name = "settle"
-until = 0.15
-[[stage]]
-name = "discharge"
-remove = ["plug"]
-until = 0.4
-[time]
-step = 2e-5
-[output]
-frames = 0.05
-series = 0.01
-)";
 
 struct Outcome {
   std::uint64_t hash;
@@ -89,17 +41,6 @@ void check_same(const Outcome& a, const Outcome& b) {
   CHECK(a.discharge == b.discharge);
   CHECK(a.ledger == b.ledger);
   CHECK(a.walls == b.walls);
-}
-
-RunArguments arguments_for(const std::string& folder, int threads, std::vector<std::string> overrides = {}) {
-  const std::string scene = folder + ".toml";
-  std::ofstream(scene) << little_hopper;
-  RunArguments a;
-  a.scene = scene;
-  a.folder = folder;
-  a.threads = threads;
-  a.overrides = std::move(overrides);
-  return a;
 }
 
 std::vector<std::vector<double>> rows_of(const std::string& csv) {
@@ -182,37 +123,4 @@ TEST_CASE("a discharge may start from another run's bed, with its contact histor
   }
   CHECK(worst == 0);
   CHECK(largest > 0);
-}
-
-TEST_CASE("a folder that holds another run is refused and left alone", "[run]") {
-  const ScratchFolder scratch;
-  RunArguments a =
-      arguments_for(scratch.path() + "/taken", 1, {"stage.settle.until=0.001", "stage.discharge.until=0.001"});
-  CHECK(command_run(a) == exit_code::ok);
-  const std::string before = read_text_file(scratch.path() + "/taken/series/energies.csv");
-  CHECK_THROWS_AS(command_run(a), FileError);
-  CHECK(read_text_file(scratch.path() + "/taken/series/energies.csv") == before);
-  a.folder = scratch.path() + "/nothing";
-  CHECK_THROWS_AS(command_resume(a), FileError);
-}
-
-TEST_CASE("a start with deep overlaps stops with a report and a crash frame", "[run]") {
-  const ScratchFolder scratch;
-  const std::string base = scratch.path() + "/";
-  std::ofstream(base + "state.csv")
-      << "id,x,y,z,vx,vy,vz,wx,wy,wz,radius,material\n0,0.010,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n"
-         "1,0.0105,0.003,0.1,0,0,0,0,0,0,0.0025,grain\n";
-  RunArguments a = arguments_for(base + "crash", 1);
-  std::string text = read_text_file(a.scene);
-  text.replace(text.find("sizes = "), text.find("[[stage]]") - text.find("sizes = "),
-               "file = \"state.csv\"\ndiameter = 0.005\nmaterial = \"grain\"\n");
-  std::ofstream(a.scene) << text;
-  try {
-    command_run(a);
-    FAIL("it ran");
-  } catch (const PhysicsError& error) {
-    const std::string what = error.what();
-    CHECK(what.find("grains 0 and 1") != std::string::npos);
-    CHECK(what.find("Likely cause") != std::string::npos);
-  }
 }

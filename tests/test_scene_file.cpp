@@ -333,7 +333,10 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"material.steel.poisson=-1"}, "'poisson' must be above -1, not -1");
   refused({"material.steel.density=0"}, "'density' must be above 0");
   refused({"material.grain.young=nan"}, "'young' must be a finite number");
-  refused({"particles.count=2.5"}, "'count' must be a whole number");
+  refused({"particles.count=2.5"}, "'count' must be a whole number, not 2.5");
+  refused({"particles.count=many"}, "'count' must be a whole number, not a string");
+  refused({"stage.settle.until=later"}, "write until = 0.7 (s), \"at rest\", \"empty\" or { discharged = 1000 }");
+  refused({"stage.settle.until=emty"}, "did you mean 'empty'? Or write until = 0.7 (s), \"at rest\"");
   refused({"particles.region.r=[0.04, 0.01]"}, "'r' must rise");
   refused({"domain.axis=hollow"}, "'inner_radius' is missing");
   refused({"domain.inner_radius=0.01"}, "only the axis 'hollow' has an inner radius");
@@ -346,6 +349,8 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"domain.gravity=[0, 0, 0]"}, "without gravity, rest has no natural scale");
   refused({"contact.stiffness=1"}, "for the law 'linear' only");
   refused({"contact.law=linear"}, "needs stiffness = N/m or contact_time = s");
+  refused({"contact.law=linear", "contact.contact_time=1e-3", "contact.grain-grain.damping=1.2"},
+          "a contact damped critically or more has no 'contact_time'");
   refused({"stage.open.add=[\"shell\"]"}, "the wall 'shell' is there already");
   refused({"wall.floor.present=false"}, "the wall 'floor' is not there to be removed");
   refused({"wall.floor.profile=[[0, 0], [-0.04, 0]]"}, "'r' must be at least 0");
@@ -381,7 +386,7 @@ TEST_CASE("doubtful scenes are accepted with a warning", "[scene]") {
     CHECK(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return contains(w, says); }));
   };
   warned({"time.step=2e-5"}, "% of the Rayleigh time");
-  warned({"wall.floor.profile=[[0, 0], [\"19.95 d\", 0]]"}, "nearly join: they are 0.0001 m apart");
+  warned({"wall.floor.profile=[[0, 0], [\"19.95 d\", 0]]"}, "nearly join: they are 0.0001 m (0.05 d) apart");
   warned({"wall.floor.profile=[[0, 0.01], [\"20 d\", 0.01]]"}, "passes through the fill region");
   warned({"particles.count=4001"}, "does not divide by 4");
   warned({"contact.rolling=none"}, "has no effect");

@@ -1,0 +1,44 @@
+// run_folder.cpp: whether a folder holds a run, and names of files after stages.
+#include "apps/run_folder.hpp"
+
+#include <filesystem>
+
+#include "core/require.hpp"
+#include "io/checkpoint.hpp"
+#include "io/provenance.hpp"
+
+namespace wedge {
+
+namespace fs = std::filesystem;
+
+void RunFolder::require_run() const {
+  const std::string remedy = "; name the folder that `wedge run SCENE.toml -o FOLDER` made";
+  std::error_code ignored;
+  if (!fs::exists(path_, ignored)) throw FileError(path_ + ": there is no such folder" + remedy);
+  if (!fs::is_directory(path_, ignored)) throw FileError(path_ + ": is a file, not the folder of a run" + remedy);
+  if (!fs::exists(resolved_scene(), ignored))
+    throw FileError(path_ + ": is not the folder of a run: " + fs::path(resolved_scene()).filename().string() +
+                    " is missing" + remedy);
+}
+
+bool RunFolder::failed_at_start() const {
+  if (!fs::exists(progress())) return false;
+  const Progress p = read_progress(progress());
+  const bool can_go_on = fs::is_directory(checkpoints()) && newest_valid_checkpoint(checkpoints()).has_value();
+  return p.state == "failed" && p.step == 0 && !can_go_on;
+}
+
+std::string RunFolder::file_name_of(const std::string& stage) {
+  std::string name;
+  for (const char c : stage) {
+    const auto code = static_cast<unsigned char>(c);
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                       c == '_' || c == '.' || code >= 0x80;
+    char hexadecimal[4];
+    std::snprintf(hexadecimal, sizeof hexadecimal, "%%%02X", code);
+    name += plain ? std::string(1, c) : hexadecimal;
+  }
+  return name;
+}
+
+}  // namespace wedge
