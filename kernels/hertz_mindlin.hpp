@@ -37,7 +37,7 @@ struct HertzMindlin {
 
     const double stiffness = 8 * c.shear * root;
     const double damping = 2 * c.damping_tangential * std::sqrt(in.effective_mass * stiffness);
-    const double cap = c.sliding * std::max(0.0, out.normal);
+    const double cap = c.sliding * out.elastic_normal;
     const double length = std::sqrt(dot(in.displacement, in.displacement));
     const double elastic = stiffness * length;
     const bool slides = elastic > cap;

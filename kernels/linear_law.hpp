@@ -50,7 +50,7 @@ struct LinearLaw {
 
     const double k_t = c.tangential_ratio * k_n;
     const double damping = c.damping_tangential * critical * std::sqrt(c.tangential_ratio);
-    const double cap = c.sliding * std::max(0.0, out.normal);
+    const double cap = c.sliding * out.elastic_normal;
     const double length = std::sqrt(dot(in.displacement, in.displacement));
     const double elastic = k_t * length;
     const bool slides = elastic > cap;

@@ -1,92 +1,70 @@
 // test_impact.cpp: one impact against closed forms and published numbers.
-#include "tests/catch.hpp"
-#include "tests/laboratory.hpp"
+#include "tests/impact.hpp"
+
+#include "tests/curve.hpp"
+#include "tests/ladder.hpp"
 
 using namespace wedge;
 using namespace wedge::test;
 
 namespace {
 
-struct Impact {
-  double force_max = 0, overlap_max = 0, duration = 0, rebound = 0;
+/// A material of Chung & Ooi (2011) and what the paper prints for its impact.
+struct Printed {
+  const char* name;
+  double young, poisson, density, force, overlap, duration;
 };
 
-/// Two equal spheres head on, each at `speed`; dt is duration / steps_per_contact.
-Impact head_on(const Scene& scene, double radius, double speed, double dt) {
-  Experiment e(scene,
-               {{radius, {-radius, 0.3 * radius, 0}, {speed, 0, 0}, {}},
-                {radius, {radius + 1e-9 * radius, 0.3 * radius, 0}, {-speed, 0, 0}, {}}},
-               dt);
-  Impact r;
-  bool touched = false;
-  e.run_until(
-      [&] {
-        const bool now = e.touching() > 0;
-        touched = touched || now;
-        if (now) {
-          r.duration += dt;
-          r.overlap_max = std::max(r.overlap_max, e.deepest_overlap());
-          r.force_max = std::max(r.force_max, norm(e.state.contacts.force(0)));
-        }
-        return touched && !now;
-      },
-      2000000);
-  r.rebound = -e.v(0).x;
-  return r;
+void compare(const std::string& place, const Printed& row, const char* source, const Impact& r, double speed) {
+  const std::string subject = std::string("elastic impact, ") + row.name;
+  CHECK(Rung(place + "1", subject + ": largest force", source, Measure::relative, "N")
+            .add(r.force_max, row.force)
+            .within(2e-4));
+  CHECK(Rung(place + "2", subject + ": largest overlap", source, Measure::relative, "um")
+            .add(r.overlap_max * 1e6, row.overlap * 1e6)
+            .within(2e-4));
+  CHECK(Rung(place + "3", subject + ": duration", source, Measure::relative, "us")
+            .add(r.duration * 1e6, row.duration * 1e6)
+            .within(2e-3));
+  CHECK(Rung(place + "4", subject + ": rebound speed", "energy", Measure::relative, "m/s")
+            .add(norm(r.v), speed)
+            .within(1e-5));
 }
 
-/// A sphere falling on the plate z = 0 without gravity.
-Impact on_plate(Scene scene, double radius, double speed, double dt) {
-  Experiment e(scene, {{radius, {0.3, 0.2, radius * (1 + 1e-9)}, {0, 0, -speed}, {}}}, dt);
-  Impact r;
-  bool touched = false;
-  e.run_until(
-      [&] {
-        const bool now = e.touching_walls() > 0;
-        touched = touched || now;
-        if (now) {
-          r.duration += dt;
-          for (const double o : e.state.wall_contacts.overlap) r.overlap_max = std::max(r.overlap_max, o);
-          r.force_max = std::max(r.force_max, norm(e.state.particles.force.get(0)));
-        }
-        return touched && !now;
-      },
-      2000000);
-  r.rebound = e.v(0).z;
-  return r;
+/// The force as a function of time against a digitised curve in microseconds and kilonewtons.
+void compare_history(const std::string& place, const char* name, const char* source, const Impact& r,
+                     const char* file) {
+  std::vector<CurvePoint> ours{{0, 0}};
+  for (std::size_t k = 0; k < r.time.size(); ++k) ours.push_back({r.time[k] * 1e6, r.force[k] * 1e-3});
+  ours.push_back({ours.back().x + 1e-3, 0});
+  ours.push_back({1e6, 0});
+  Rung rung(place, std::string("elastic impact, ") + name + ": force in time", source, Measure::full_scale);
+  for (const CurvePoint p : reference_curve(file)) rung.add(interpolate(ours, p.x), p.y);
+  CHECK(rung.within(0.01));
 }
 
 }  // namespace
 
 TEST_CASE("elastic Hertz impact of two spheres: Chung & Ooi (2011), test 1", "[impact]") {
-  struct Row {
-    double young, poisson, density, force, overlap, duration;
-  };
-  for (const Row& row :
-       {Row{4.8e10, 0.20, 2800, 10697, 274.11e-6, 40.34e-6}, Row{2e10, 0.25, 2500, 7108.2, 368.30e-6, 54.20e-6}}) {
+  const char* source = "Chung & Ooi (2011), test 1";
+  const Printed rows[] = {{"glass", 4.8e10, 0.20, 2800, 10697, 274.11e-6, 40.34e-6},
+                          {"limestone", 2e10, 0.25, 2500, 7108.2, 368.30e-6, 54.20e-6}};
+  for (const Printed& row : rows) {
     const Impact r = head_on(plain_scene(row.young, row.poisson, row.density), 0.01, 10, row.duration / 2000);
-    CHECK(r.force_max == Approx(row.force).epsilon(2e-4));
-    CHECK(r.overlap_max == Approx(row.overlap).epsilon(2e-4));
-    CHECK(r.duration == Approx(row.duration).epsilon(2e-3));
-    CHECK(r.rebound == Approx(10).epsilon(1e-5));
+    compare(std::string("01") + row.name, row, source, r, 10);
+    if (&row == rows) compare_history("01glass5", row.name, source, r, "chung_ooi_1_force.dat");
   }
 }
 
 TEST_CASE("elastic Hertz impact on a rigid plane: Chung & Ooi (2011), test 2", "[impact]") {
-  struct Row {
-    double young, poisson, density, force, overlap, duration;
-  };
-  for (const Row& row :
-       {Row{7e10, 0.30, 2699, 11370, 49.717e-6, 731.6e-6}, Row{4e10, 0.35, 1800, 7232.7, 52.123e-6, 767.0e-6}}) {
-    Scene scene = plain_scene(row.young, row.poisson, row.density);
-    scene.materials.push_back({"rigid", 1, 1e30, 0.3});
-    scene.interactions = PairTable<Interaction>(2);
-    add_wall(scene, "plate", {{0, 0}, {2, 0}}, 1);
-    const Impact r = on_plate(scene, 0.1, 0.2, row.duration / 2000);
-    CHECK(r.force_max == Approx(row.force).epsilon(2e-4));
-    CHECK(r.overlap_max == Approx(row.overlap).epsilon(2e-4));
-    CHECK(r.duration == Approx(row.duration).epsilon(2e-3));
-    CHECK(r.rebound == Approx(0.2).epsilon(1e-5));
+  const char* source = "Chung & Ooi (2011), test 2";
+  const Printed rows[] = {{"aluminium alloy", 7e10, 0.30, 2699, 11370, 49.717e-6, 731.6e-6},
+                          {"magnesium alloy", 4e10, 0.35, 1800, 7232.7, 52.123e-6, 767.0e-6}};
+  for (const Printed& row : rows) {
+    const Scene scene = with_rigid_plate(plain_scene(row.young, row.poisson, row.density));
+    const Impact r = on_plate(scene, 0.1, {0, 0, -0.2}, {}, row.duration / 2000);
+    compare(std::string("02") + row.name, row, source, r, 0.2);
+    if (&row == rows) compare_history("02aluminium alloy5", row.name, source, r, "chung_ooi_2_force.dat");
   }
 }
 
@@ -94,19 +72,26 @@ TEST_CASE("restitution of the default law depends on c_n alone", "[impact]") {
   struct Row {
     double damping, pulls, clipped;
   };  // PHYSICS section 1
+  const char* source = "own integration of the normal law";
+  Rung pulls("03a", "restitution for c_n 0.05 ... 0.5, two speeds", source, Measure::absolute);
+  Rung clipped("03b", "the same with `tension = \"none\"`", source, Measure::absolute);
   for (const Row& row : {Row{0.05, 0.8417, 0.8468}, Row{0.1, 0.7074, 0.7247}, Row{0.2, 0.4939, 0.5454},
                          Row{0.3, 0.3352, 0.4231}, Row{0.5, 0.1279, 0.2732}}) {
     for (const double speed : {0.1, 1.0}) {
       Scene scene = plain_scene(1e7, 0.3, 3800, 0, row.damping);
       const double dt = 2e-7;
-      CHECK(head_on(scene, 0.0025, speed, dt).rebound / speed == Approx(row.pulls).margin(2e-4));
+      pulls.add(-head_on(scene, 0.0025, speed, dt).v.x / speed, row.pulls);
       scene.contact.tension = Tension::none;
-      CHECK(head_on(scene, 0.0025, speed, dt).rebound / speed == Approx(row.clipped).margin(2e-4));
+      clipped.add(-head_on(scene, 0.0025, speed, dt).v.x / speed, row.clipped);
     }
   }
+  CHECK(pulls.within(2e-4));
+  CHECK(clipped.within(2e-4));
 }
 
 TEST_CASE("every law gives the restitution asked for, with and without tension", "[impact]") {
+  Rung rung("03c", "restitution asked for, 0.4 and 0.8, all laws, with and without tension", "definition",
+            Measure::absolute);
   for (const ContactLaw law : {ContactLaw::mindlin_deresiewicz, ContactLaw::hertz_mindlin, ContactLaw::linear}) {
     for (const Tension tension : {Tension::full, Tension::none}) {
       for (const double e : {0.4, 0.8}) {
@@ -115,10 +100,11 @@ TEST_CASE("every law gives the restitution asked for, with and without tension",
         scene.contact.tension = tension;
         scene.contact.normal_stiffness = 1e4;
         scene.interactions(0, 0).restitution = e;
-        CHECK(head_on(scene, 0.0025, 0.3, 1e-7).rebound / 0.3 == Approx(e).margin(1e-3));
+        rung.add(-head_on(scene, 0.0025, 0.3, 1e-7).v.x / 0.3, e);
       }
     }
   }
+  CHECK(rung.within(1e-3));
 }
 
 TEST_CASE("the linear law lasts the contact time asked for", "[impact]") {
@@ -126,32 +112,39 @@ TEST_CASE("the linear law lasts the contact time asked for", "[impact]") {
   scene.contact.law = ContactLaw::linear;
   scene.contact.contact_time = 1e-3;
   scene.interactions(0, 0).restitution = 0.7;
-  CHECK(head_on(scene, 0.0025, 0.3, 1e-7).duration == Approx(1e-3).epsilon(1e-3));
+  CHECK(Rung("03d", "`linear`: contact time asked for", "definition", Measure::relative, "s")
+            .add(head_on(scene, 0.0025, 0.3, 1e-7).duration, 1e-3)
+            .within(1e-3));
 }
 
 TEST_CASE("oblique impact with gross sliding", "[impact]") {
-  // e_t = 1 - mu (1 + e) / tan(phi), |w| = (5/2) mu (1 + e) v_n / R; phi is the angle from the normal
+  // e_t = 1 - mu (1 + e) / tan(phi), |w| = (5/2) mu (1 + e) v_n / R; phi is the angle from the normal. It holds
+  // with losses too: over a whole contact the viscous part of the normal force has no impulse.
   const double mu = 0.1, R = 0.0025, v = 1.0;
-  for (const double degrees : {45.0, 60.0, 75.0}) {
-    const double phi = degrees * pi / 180;
-    Scene scene = plain_scene(1e9, 0.3, 3800, mu);
-    add_wall(scene, "plate", {{0, 0}, {2, 0}});
-    Experiment e(scene,
-                 {{R,
-                   {0.1, 0.2, R * (1 + 1e-9)},
-                   {0.6 * v * std::sin(phi), 0.8 * v * std::sin(phi), -v * std::cos(phi)},
-                   {}}},
-                 2e-8);
-    bool touched = false;
-    REQUIRE(e.run_until(
-        [&] {
-          touched = touched || e.touching_walls();
-          return touched && !e.touching_walls();
-        },
-        1000000));
-    const double tangential = 0.6 * e.v(0).x + 0.8 * e.v(0).y;
-    CHECK(tangential / (v * std::sin(phi)) == Approx(1 - mu * 2 / std::tan(phi)).epsilon(3e-3));
-    CHECK(norm(e.w(0)) == Approx(2.5 * mu * 2 * v * std::cos(phi) / R).epsilon(1.2e-2));  // lever arm R - dn, not R
-    CHECK(std::fabs(e.w(0).z) < 1e-9 * norm(e.w(0)));
+  for (const ContactLaw law : {ContactLaw::mindlin_deresiewicz, ContactLaw::hertz_mindlin, ContactLaw::linear}) {
+    const bool standard = law == ContactLaw::mindlin_deresiewicz, linear = law == ContactLaw::linear;
+    const std::string name = standard ? "`mindlin_deresiewicz`" : linear ? "`linear`" : "`hertz_mindlin`";
+    for (const double e : {1.0, 0.5}) {
+      const std::string place = text("04%.1f", 1 - e) + name,
+                        losses = e < 1 ? ", restitution 0.5, " : ", elastic, ";
+      Rung speed(place + "1", "gross sliding" + losses + name + ": tangential restitution", "rigid-body impulse");
+      Rung spin(place + "2", "gross sliding" + losses + name + ": spin", "rigid-body impulse", Measure::relative,
+                "1/s");
+      for (const double degrees : {45.0, 60.0, 75.0}) {
+        const double phi = degrees * pi / 180;
+        Scene scene = plain_scene(1e9, 0.3, 3800, mu);
+        scene.contact.law = law;
+        scene.contact.normal_stiffness = 1e6;
+        scene.interactions(0, 0).restitution = e;
+        add_wall(scene, "plate", {{0, 0}, {2, 0}});
+        const Vec3 before{0.6 * v * std::sin(phi), 0.8 * v * std::sin(phi), -v * std::cos(phi)};
+        const Impact r = on_plate(scene, R, before, {}, 2e-8);
+        speed.add((0.6 * r.v.x + 0.8 * r.v.y) / (v * std::sin(phi)), 1 - mu * (1 + e) / std::tan(phi));
+        spin.add(norm(r.w), 2.5 * mu * (1 + e) * v * std::cos(phi) / R);
+        CHECK(std::fabs(r.w.z) < 1e-9 * norm(r.w));
+      }
+      CHECK(speed.within(1e-4));
+      CHECK(spin.within(1.2e-2));  // lever arm R - dn, not R
+    }
   }
 }
