@@ -147,6 +147,7 @@ void Simulation::begin_stage() {
 
 void Simulation::end_stage() {
   const std::string name = stage().name;
+  doubt_step();
   recorder_->record_series(*state_, *step_, memory_);
   recorder_->record_frame(*state_, memory_);
   results_.push_back(measure_bed(*state_, *scene_, name, discharge_rate(), memory_.stage_wall_seconds));
@@ -213,7 +214,26 @@ void Simulation::between_steps() {
   memory_.wall_seconds += passed;
   memory_.stage_wall_seconds += passed;
   if (session_seconds_ - last_checkpoint_ >= scene_->output.checkpoint_every) save("checkpoint");
-  if (session_seconds_ - last_report_ >= report_every) report("running");
+  if (session_seconds_ - last_report_ >= report_every) {
+    report("running");
+    doubt_step();
+  }
+}
+
+/// Says once when the energy budget does not close: the step is then too long for what happens in it.
+void Simulation::doubt_step() {
+  if (doubted_step_ || !scene_->output.energy_budget) return;
+  const EnergyLedger& l = state_->energy;
+  const double lost = l.normal_damping + l.tangential_damping + l.sliding + l.rolling + l.axis;
+  const Energies now = step_->energies(*state_);
+  const double residual = step_->residual(*state_, memory_.begin, now);
+  if (!(std::abs(residual) > 0.1 * lost) || lost < 1e-3 * std::abs(memory_.begin.total() - now.total())) return;
+  doubted_step_ = true;
+  std::ostringstream text;
+  text << "warning: at " << state_->time << " s " << residual << " J of " << lost
+       << " J lost are unexplained (residual in series/energies.csv): the time step of " << dt_ << " s is too long";
+  log(text.str());
+  line_.note(text.str());
 }
 
 void Simulation::save(const char* what) {

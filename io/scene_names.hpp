@@ -43,11 +43,10 @@ inline const Names<ContactLaw> law_names{{{"mindlin_deresiewicz", ContactLaw::mi
                                           {"hertz_mindlin", ContactLaw::hertz_mindlin},
                                           {"linear", ContactLaw::linear}},
                                          {}};
-inline const Names<RollingModel> rolling_names{
-    {{"none", RollingModel::none},
-     {"constant_torque", RollingModel::constant_torque},
-     {"elastic_plastic_spring", RollingModel::elastic_plastic_spring}},
-    {}};
+inline const Names<RollingModel> rolling_names{{{"none", RollingModel::none},
+                                                {"constant_torque", RollingModel::constant_torque},
+                                                {"elastic_plastic_spring", RollingModel::elastic_plastic_spring}},
+                                               {}};
 inline const Names<Tension> tension_names{{{"full", Tension::full}, {"none", Tension::none}}, {}};
 inline const Names<RollingVelocity> rolling_velocity_names{
     {{"own", RollingVelocity::own}, {"relative", RollingVelocity::relative}}, {}};

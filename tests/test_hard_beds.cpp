@@ -1,0 +1,212 @@
+// test_hard_beds.cpp: hard cases of beds: long steps, soft and stiff grains, sizes and densities far apart, no
+// damping, long rest, few grains and many. The scenes are in hard_cases/.
+#include "core/require.hpp"
+#include "core/time_scales.hpp"
+#include "tests/ladder.hpp"
+#include "tests/trial.hpp"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+void report(const std::string& place, const std::string& scene, const std::string& must, const std::string& found) {
+  write_row("hard", place, {scene, must, found});
+}
+
+/// Load on the walls over the last steps against weight + dP_z/dt, as a part of the weight.
+double load_error(Trial& t) {
+  const double before = momentum(t.state).z;
+  double impulse = 0.5 * t.load();
+  const int steps = 200;
+  for (int k = 0; k < steps; ++k) {
+    t.run_steps(1);
+    impulse += (k + 1 < steps ? 1.0 : 0.5) * t.load();
+  }
+  const double mean = impulse / steps, rate = (momentum(t.state).z - before) / (steps * t.dt);
+  return std::fabs(mean - t.weight() - rate) / t.weight();
+}
+
+/// Falls and settles: sound, load = weight + dP_z/dt, budget closed, at rest. Returns what is said of it in the
+/// table.
+std::string settles(const std::string& name, const std::vector<std::string>& overrides, double seconds) {
+  Trial t(hard_case(name, overrides));
+  t.run(seconds);
+  t.check_sound();
+  CHECK(load_error(t) < 1e-9);
+  CHECK(t.unexplained() < 0.01);
+  const double left = t.step.energies(t.state).kinetic / t.dissipated();
+  CHECK(left < 0.02);
+  return "residual " + text("%.2f", 100 * t.unexplained()) + " % and kinetic energy " + text("%.0e", 100 * left) +
+         " % of the losses, deepest overlap " + text("%.2g", 100 * t.deepest_overlap() / t.state.mean_diameter) +
+         " % of the mean d";
+}
+
+}  // namespace
+
+TEST_CASE("hard: steps of 5 to 80 per cent of the Rayleigh time", "[hard]") {
+  for (const double part : {0.05, 0.10, 0.20, 0.25, 0.30, 0.39, 0.80}) {
+    CAPTURE(part);
+    Scene scene = hard_case("pot");
+    scene.time_step = part * rayleigh_time(scene);  // the reader refuses the longest: it is put in behind its back
+    std::string found;
+    Trial t(scene);
+    try {
+      t.run(0.4);
+      found = "runs; residual " + text("%.2g", 100 * t.unexplained()) + " % of the losses, " +
+              text("%.1e", t.step.energies(t.state).kinetic / t.state.particles.count()) + " J a grain left";
+    } catch (const PhysicsError& error) {
+      found = "stopped by the guard after " + text("%.0f", static_cast<double>(t.state.step)) + " steps";
+      CHECK(std::string(error.what()).find("Likely cause") != std::string::npos);
+    }
+    CHECK(t.finite());
+    const std::vector<std::string> step{"time.step=" + std::to_string(1e6 * scene.time_step) + "e-6"};
+    const double energy = t.step.energies(t.state).total() / t.begin.total();
+    if (part <= 0.2) {
+      CHECK(t.unexplained() < 0.02 * std::pow(part / 0.1, 2));
+      CHECK(t.load() == Approx(t.weight()).epsilon(0.01));
+    } else if (part < 0.8) {  // the bed is heated by the step: bounded, but never at rest
+      CHECK(energy < 1);
+      CHECK(scene_warnings(hard_case("pot", step)).size() >= 1);
+      found += "; `check` warns";
+    } else {  // energy out of nothing
+      CHECK_THROWS_AS(hard_case("pot", step), SceneError);
+      found = "refused by `check`; put in behind its back: " + found + ", energy " + text("%.2f", energy) +
+              " of that at the start";
+    }
+    report("01" + text("%.2f", part), "pot, step " + text("%.0f", 100 * part) + " % of Rayleigh",
+           part <= 0.2 ? "comes to rest, budget closed" : "no garbage before the guard speaks", found);
+  }
+}
+
+TEST_CASE("hard: head-on impacts up to overlaps of a fifth of a diameter, and beyond", "[hard]") {
+  for (const double speed : {1.0, 5.0, 10.0}) {
+    for (const double damping : {0.0, 0.3}) {
+      CAPTURE(speed, damping);
+      Scene scene = hard_case("pot", {"domain.gravity=[0,0,0]"});
+      scene.walls.clear();
+      scene.interactions(0, 0).damping_normal = damping;
+      Trial t(scene);
+      Particles& p = t.state.particles;
+      p.resize(2);
+      p.position.set(0, {0, 0, 0});
+      p.position.set(1, {0.00501, 0, 0});
+      p.velocity.set(0, {speed, 0, 0});
+      p.velocity.set(1, {-speed, 0, 0});
+      for (std::size_t i = 0; i < 2; ++i) p.angular_velocity.set(i, {}), p.id[i] = static_cast<int>(i);
+      t.state.put_in = 2;
+      t.state.contacts = {};
+      t.dt /= 10;
+      t.step.start(t.state, t.dt);
+      double deepest = 0;
+      std::string found;
+      try {
+        for (int k = 0; k < 4000; ++k) {
+          t.run_steps(1);
+          deepest = std::max(deepest, t.deepest_overlap());
+        }
+        const double rebound = -p.velocity.x[0] * (p.id[0] == 0 ? 1 : -1) / speed;
+        CHECK(rebound == Approx(damping > 0 ? 0.3352 : 1.0).margin(5e-3));
+        found = "rebounds with " + text("%.3f", rebound) + " of its speed";
+      } catch (const PhysicsError& error) {
+        CHECK(std::string(error.what()).find("overlap by") != std::string::npos);
+        CHECK(deepest > 0.25 * 0.005);
+        found = "stopped by the guard";
+      }
+      report("02" + text("%04.0f", speed) + text("%.1f", damping),
+             "two grains at " + text("%g", speed) + " m/s each, c_n " + text("%g", damping),
+             "restitution, or the guard beyond 0.3 d",
+             found + ", overlap " + text("%.1f", 100 * deepest / 0.005) + " % d");
+    }
+  }
+}
+
+TEST_CASE("hard: sizes 1 to 10, densities 1 to 1000, soft and stiff grains, friction 0 and 2", "[hard]") {
+  const char* must = "nearly comes to rest, load = weight + dP/dt, budget closed";
+  report("03", "sizes: diameters 1 and 10 mm", must, settles("sizes", {}, 0.2));
+  report("04", "densities: 100 and 100 000 kg/m3", must, settles("densities", {}, 0.3));
+  report("05", "pot, E = 1e6 Pa", must, settles("pot", {"material.grain.young=1e6", "time.step=auto"}, 0.4));
+  report(
+      "06", "pot, E = 7e10 Pa, 60 grains, from a small height", must,
+      settles("pot",
+              {"material.grain.young=7e10", "time.step=auto", "particles.count=60", "particles.region.z=[0, 0.03]"},
+              0.25));
+  report("07", "pot, sliding 0, rolling 0", must,
+         settles("pot", {"contact.grain-grain.sliding=0", "contact.grain-grain.rolling=0"}, 1.5));
+  report("08", "pot, sliding 2", must, settles("pot", {"contact.grain-grain.sliding=2"}, 0.4));
+}
+
+TEST_CASE("hard: a million steps without damping and friction keep the energy", "[hard]") {
+  Scene scene = hard_case("pot", {"domain.gravity=[0,0,0]", "particles.count=24", "particles.speed=0.5",
+                                  "contact.grain-grain.sliding=0", "contact.grain-grain.rolling=0",
+                                  "contact.grain-grain.damping=0", "particles.region.z=[0, 0.04]"});
+  scene.walls[0].profile = {{0.02, 0}, {0.02, 0.04}, {0, 0.04}};
+  Trial t(scene);
+  t.run_steps(1000000);
+  t.check_sound();
+  const double drift = t.step.energies(t.state).total() / t.begin.total() - 1;
+  CHECK(std::fabs(drift) < 1e-3);
+  CHECK(t.dissipated() == 0);
+  report("09", "24 grains in a closed can, no damping, no friction, 10^6 steps", "energy kept",
+         "drift " + text("%.1e", drift));
+}
+
+TEST_CASE("hard: friction without damping: the budget closes by the history coupling", "[hard]") {
+  Trial t(hard_case("pot", {"contact.grain-grain.damping=0", "contact.grain-grain.rolling=0"}));
+  t.run(1.0);
+  t.check_sound();
+  const double coupling = t.step.history_coupling(t.state, t.begin, t.step.energies(t.state)) / t.dissipated();
+  CHECK(t.unexplained() < 0.02);
+  report("10", "pot, friction but no damping", "budget closed, history coupling told",
+         "history coupling " + text("%.1f", 100 * coupling) + " %, residual " +
+             text("%.2f", 100 * t.unexplained()) + " % of the losses");
+}
+
+TEST_CASE("hard: a bed at rest stays at rest for ten seconds", "[hard]") {
+  Trial t(hard_case("pot"));
+  t.run(2.0);
+  const double height = t.mean_height(), lost = t.dissipated();
+  t.run(8.0);
+  t.check_sound();
+  const double creep = std::fabs(t.mean_height() - height) / 0.005, spin = t.largest_spin();
+  CHECK(creep < 1e-9);
+  CHECK(spin < 1e-9);
+  CHECK(t.dissipated() - lost < 1e-12 * lost);
+  CHECK(t.load() == Approx(t.weight()).epsilon(1e-9));
+  report("11", "pot, at rest from 2 s to 10 s", "no creep, no spin",
+         "centre of mass moves " + text("%.1e", creep) + " d, largest spin " + text("%.1e", spin) + " 1/s");
+}
+
+TEST_CASE("hard: an empty sector, one grain, two sectors", "[hard]") {
+  Scene empty = hard_case("pot", {"domain.angle=30", "particles.count=12"});
+  std::get<RandomFill>(empty.particles.grains).count = 0;
+  Trial none(empty);
+  none.run_steps(1000);
+  CHECK(none.state.particles.count() == 0);
+  Trial one(hard_case("pot", {"domain.angle=30", "particles.count=12"}));
+  CHECK(one.state.particles.count() == 1);
+  one.run(0.3);
+  one.check_sound();
+  CHECK(one.load() == Approx(one.weight()).epsilon(1e-6));
+  const char* must = "nearly comes to rest, load = weight + dP/dt, budget closed";
+  report("12", "pot, no grain in 30 degrees", "runs", "1000 steps");
+  report("13", "pot, one grain in 30 degrees", must, "load " + text("%.6f", one.load() / one.weight()));
+  report("14", "pot, 180 degrees", must, settles("pot", {"domain.angle=180"}, 0.4));
+  report("15", "pot, 180 degrees, axis images", must,
+         settles("pot", {"domain.angle=180", "domain.axis=images"}, 0.4));
+}
+
+TEST_CASE("hard: a sector of 3 degrees around an inner cylinder; thinner than a grain is refused", "[hard]") {
+  const std::string found = settles("hollow", {}, 0.4);
+  report("16", "hollow: 3 degrees, D = 100 d, 500 grains",
+         "nearly comes to rest, load = weight + dP/dt, budget closed", found);
+  std::string complaint;
+  try {
+    hard_case("hollow",
+              {"wall.trough.profile=[[\"5 d\",0],[\"20 d\",0],[\"20 d\",0.3]]", "domain.inner_radius=\"5 d\"",
+               "particles.region.r=[\"5 d\",\"20 d\"]", "particles.count=6000"});
+  } catch (const SceneError& error) {
+    complaint = error.what();
+  }
+  CHECK(complaint.find("the sector is too thin") != std::string::npos);
+}
