@@ -212,7 +212,7 @@ StageResult measure_bed(const State& state, const Scene& scene, const std::strin
     add("load on " + state.vessel.wall(w).name, "N", 0 - loads[static_cast<std::size_t>(w)].force.z * copies);
   double mass = 0;
   for (std::size_t i = 0; i < grain_count(state); ++i) mass += state.particles.mass[i];
-  add("weight of all grains", "N", mass * scene.domain.gravity.norm() * copies);
+  add("weight of all grains", "N", mass * std::abs(scene.domain.gravity.z()) * copies);
   add("kinetic energy per grain", "J", count > 0 ? mean_kinetic_energy(state) : not_known);
   add("bed height", "m", bed_height(state, scene));
   add("discharge rate", "1/s", discharge_rate * copies);

@@ -13,6 +13,7 @@
 #include "io/scene_diagnostics.hpp"
 #include "io/scene_file.hpp"
 #include "io/scene_names.hpp"
+#include "kernels/time_step.hpp"
 
 namespace wedge {
 namespace {
@@ -98,7 +99,12 @@ void print_time_steps(const Scene& scene) {
 /// Grains in this domain. Those of another run or of a file are read as for a run, and refused as by one.
 std::int64_t grains_here(const Scene& scene) {
   const auto* fill = std::get_if<RandomFill>(&scene.particles.grains);
-  if (!fill || !scene.start_from.empty()) return make_start(scene).particles.count();
+  if (!fill || !scene.start_from.empty()) {
+    State state = make_start(scene);
+    TimeStep step(scene, state);
+    if (scene.start_from.empty()) step.start(state, stage_time_step(scene, state, scene.stages.front()));
+    return state.particles.count();
+  }
   return std::llround(static_cast<double>(fill->count) / scene.domain.order);
 }
 

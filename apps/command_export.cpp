@@ -158,7 +158,11 @@ int command_export(const ExportArguments& arguments) {
     std::cerr << path << '\n';
   }
   if (arguments.vessel) {
-    const std::string path = !grains && !arguments.output.empty() ? arguments.output : beside("vessel");
+    std::string path = arguments.output;  // with grains in that file, the walls get one beside it
+    if (path.empty())
+      path = beside("vessel");
+    else if (grains)
+      path = path.substr(0, path.rfind('.')) + "_vessel.vtp";
     Domain domain = scene.domain;
     if (arguments.unfold && domain.kind == DomainKind::sector) domain.kind = DomainKind::full, domain.order = 1;
     write_vessel_vtp(path, vessel_at(scene, folder, frame.header.time), domain);

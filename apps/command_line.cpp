@@ -130,7 +130,12 @@ private:
     command->add_flag("--timings", run_.timings, "print the time of each pass at the end");
     command
         ->add_option_function<std::string>(
-            "--wall-time", [this](const std::string& text) { run_.wall_time = wall_time_of(text); },
+            "--wall-time",
+            [this](const std::string& text) {
+              run_.wall_time = wall_time_of(text);
+              if (!(run_.wall_time > 0))
+                throw CLI::ValidationError("--wall-time", "no time is left: it must be above 0");
+            },
             "stop with a checkpoint after this time (exit code 75)")
         ->type_name("SECONDS|HH:MM:SS");
   }
@@ -148,7 +153,10 @@ private:
     CLI::App* run = command("run", "Run a scene", [this] { return command_run(completed()); });
     scene_options(run);
     thread_option(run);
-    run->add_option("-o,--output", run_.folder, "folder to make for the run")->required()->type_name("DIR");
+    run->add_option("-o,--output", run_.folder, "folder to make for the run")
+        ->required()
+        ->type_name("DIR")
+        ->option_text("DIR REQUIRED");
     limit_options(run);
   }
   void add_resume() {
@@ -177,7 +185,7 @@ private:
                             [this] { return export_checked(); });
     folder_option(out, export_.folder);
     auto* frame =
-        out->add_option("--frame", frame_, "number of the frame")->check(CLI::NonNegativeNumber)->type_name("K");
+        out->add_option("--frame", frame_, "number of the frame")->check(CLI::Range(0, 999999))->type_name("K");
     out->add_flag("--last", "the last frame (the default)")->excludes(frame);
     out->add_option("--to", export_.format, "csv (readable back as a starting state) or vtp")
         ->check(CLI::IsMember({"csv", "vtp"}))

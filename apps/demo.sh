@@ -20,7 +20,7 @@ echo "A sector of 90 degrees:"
 "$wedge" run apps/scenes/demo.toml -o "$out/sector90" --set domain.angle=90
 echo
 "$wedge" compare "$out/full" --with "$out/sector90"
-echo "One run of each: rates and loads of single runs of this size differ by 10 to 20 % from seed to seed."
+echo "One run of each: rates of single runs of this size differ by 10 to 20 % from seed to seed, loads on the shell by a factor of two."
 
 echo
 echo "Pictures of a slice (any web browser opens them):"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "apps/interrupt.hpp"
@@ -13,6 +14,7 @@
 #include "core/require.hpp"
 #include "io/checkpoint.hpp"
 #include "io/provenance.hpp"
+#include "io/scene_diagnostics.hpp"
 #include "kernels/measure.hpp"
 
 namespace wedge {
@@ -21,6 +23,39 @@ namespace {
 constexpr std::int64_t look_every = 20;  // steps between looks at the wall clock, at signals and at rest
 constexpr double report_every = 1;       // s of wall time between rewrites of progress.json
 constexpr double least_to_judge = 1;     // s of wall time from which on a rate or a forecast is told
+
+constexpr double deepest_insertion = 0.1;  // radii: how far a wall that a stage adds may reach into a grain
+
+/// Throws PhysicsError when wall w stands inside a grain.
+void refuse_wall_in_grain(const State& state, int w) {
+  const Particles& p = state.particles;
+  for (int f = 0; f < state.vessel.feature_count(); ++f) {
+    if (state.vessel.feature(f).wall != w) continue;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i) {
+      const Vec3 x = p.position.get(i);
+      const double overlap = p.radius[i] - state.vessel.proximity(f, x).distance;
+      if (!(overlap > deepest_insertion * p.radius[i])) continue;
+      std::ostringstream text;
+      text << "the wall '" << state.vessel.wall(w).name << "' is added through grain " << p.id[i] << " at (" << x.x
+           << ", " << x.y << ", " << x.z << ") m in step " << state.step << ": it reaches " << overlap
+           << " m into it. Likely cause: the wall stands where the bed is; put it where no grain is.";
+      throw PhysicsError(text.str());
+    }
+  }
+}
+
+/// Grains whose centre is above the highest wall; none without walls.
+Index grains_above(const State& state) {
+  double top = -std::numeric_limits<double>::infinity();
+  for (int w = 0; w < state.vessel.wall_count(); ++w)
+    for (const Eigen::Vector2d& point : state.vessel.wall(w).profile)
+      top = std::max(top, point.y() + state.vessel.travel(w));
+  if (!std::isfinite(top)) return 0;
+  Index above = 0;
+  for (Index i = 0; i < state.particles.count(); ++i)
+    above += state.particles.position.z[static_cast<std::size_t>(i)] > top;
+  return above;
+}
 
 double seconds_since(std::chrono::steady_clock::time_point t) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
@@ -43,6 +78,7 @@ Simulation Simulation::begin(Scene scene, const RunFolder& folder) {
            "Nothing is there to resume: correct the start and run it again, into the same folder if you like.");
   }
   s.memory_.begin = s.step_->energies(*s.state_);
+  s.recorder_->record_due(*s.state_, *s.step_, s.memory_);
   s.save("start");  // a run killed in its first minutes can go on, and so can one whose physics fails
   return s;
 }
@@ -73,8 +109,15 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
 RunEnd Simulation::run(const RunLimits& limits) {
   rest_ = rest_criterion(*scene_, state_->mean_diameter);
   clock_ = std::chrono::steady_clock::now();
+  if (limits.until && !finished() && state_->time >= *limits.until - 0.5 * memory_.time_step) {
+    line_.note("already at " + short_number(state_->time) + " s: nothing to do until " +
+               short_number(*limits.until) + " s");
+    return RunEnd::until;
+  }
   try {
     return run_stages(limits);
+  } catch (const FileError& error) {
+    fail(error);
   } catch (const PhysicsError& error) {
     const auto last = newest_valid_checkpoint(folder_.checkpoints());
     fail(error, "Last good checkpoint: " + (last ? *last : std::string("none is left")));
@@ -88,6 +131,20 @@ void Simulation::fail(const PhysicsError& error, const std::string& remedy) {
   report("failed", text.substr(0, text.find('\n')));
   log("physics error: " + text);
   throw PhysicsError(text);
+}
+
+/// A file could not be written: says so where it can, then throws on with what to do.
+void Simulation::fail(const FileError& error) {
+  std::string text = error.what();
+  try {
+    const auto last = newest_valid_checkpoint(folder_.checkpoints());
+    text += "\nLast good checkpoint: " + (last ? *last : std::string("none is left"));
+    if (last) text += "\nWhen the cause is gone, go on with: wedge resume " + folder_.path();
+    log("file error: " + text);
+    report("failed", error.what());
+  } catch (const FileError&) {  // the disk that is full is this one
+  }
+  throw FileError(text);
 }
 
 RunEnd Simulation::run_stages(const RunLimits& limits) {
@@ -132,6 +189,7 @@ void Simulation::begin_stage() {
   Vessel& vessel = state_->vessel;
   for (const std::string& name : stage().remove) vessel.set_present(vessel.wall_index(name), false);
   for (const std::string& name : stage().add) vessel.set_present(vessel.wall_index(name), true);
+  for (const std::string& name : stage().add) refuse_wall_in_grain(*state_, vessel.wall_index(name));
   if (!stage().remove.empty() || !stage().add.empty()) TimeStep::expire_list(*state_);
   memory_.stage_begun = true;
   memory_.stage_start = state_->time;
@@ -157,6 +215,8 @@ void Simulation::end_stage() {
        << " of wall time: " << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
   const bool wants_rest = std::holds_alternative<UntilAtRest>(stage().until);
   if (wants_rest && !came_to_rest()) text << "; NOT at rest: stopped by at_most";
+  if (const Index above = grains_above(*state_); above > 0)
+    text << "; " << above << " of them are above the walls, where nothing holds them";
   write_slice_svg(folder_.slice(name), *state_, *scene_, name);
   log("stage " + text.str());
   line_.note("stage " + text.str());

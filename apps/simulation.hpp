@@ -59,6 +59,7 @@ private:
   bool came_to_rest() const;
   double discharge_rate() const;
   void between_steps();
+  [[noreturn]] void fail(const FileError& error);
   void doubt_step();
   void save(const char* what);
   void report(const char* run_state, const std::string& message = "");

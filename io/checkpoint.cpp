@@ -313,8 +313,9 @@ CheckpointExtra read_checkpoint(const std::string& path, State& state) {
   const Hdf5Reader file(path);
   const std::string symmetry = file.text_attribute("/", "symmetry");
   if (symmetry != symmetry_text(state.symmetry)) {
-    throw_file_error(path, "the checkpoint has the symmetry '" + symmetry + "', the scene '" +
-                               symmetry_text(state.symmetry) + "'");
+    throw_file_error(path, "the checkpoint is of another domain (copies: " + symmetry +
+                               ") than the scene (copies: " + symmetry_text(state.symmetry) +
+                               "); give [domain] the angle or width it was made with");
   }
   read_vessel(file, state.vessel);
   for_each_number(state, [&](const char* name, auto& number) {

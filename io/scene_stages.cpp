@@ -93,8 +93,8 @@ void read_stages(SceneReading& reading, const toml::table& root, Scene& scene) {
 
 void read_settings(SceneReading& reading, const toml::table& root, Scene& scene) {
   TableReader rest = open_table(reading, root, "rest");
-  scene.rest.speed = rest.number_or_auto("speed", Quantity::not_negative("a speed in m/s")).value_or(0);
-  scene.rest.duration = rest.number_or_auto("duration", Quantity::not_negative("a time in s")).value_or(0);
+  scene.rest.speed = rest.number_or_auto("speed", Quantity::positive("a speed in m/s")).value_or(0);
+  scene.rest.duration = rest.number_or_auto("duration", Quantity::positive("a time in s")).value_or(0);
   rest.finish();
 
   TableReader time = open_table(reading, root, "time");

@@ -124,3 +124,33 @@ TEST_CASE("a discharge may start from another run's bed, with its contact histor
   CHECK(worst == 0);
   CHECK(largest > 0);
 }
+
+TEST_CASE("a run killed before its first step goes on as if never stopped", "[run]") {
+  const ScratchFolder scratch;
+  const auto short_run = [&](const std::string& name) {
+    return arguments_for(scratch / name, 1, {"stage.settle.until=0.02", "stage.discharge.until=0.01"});
+  };
+  REQUIRE(command_run(short_run("whole")) == exit_code::ok);
+  RunArguments killed = short_run("killed");
+  {
+    const RunFolder folder(killed.folder);
+    std::filesystem::create_directories(folder.path());
+    Scene scene = read_scene(killed.scene, killed.overrides);
+    write_text_file_atomically(folder.scene(), scene.text);
+    write_text_file_atomically(folder.resolved_scene(), resolved_scene(scene));
+    const Simulation begun = Simulation::begin(std::move(scene), folder);  // and no more
+  }
+  REQUIRE(command_resume(killed) == exit_code::ok);
+  check_same(outcome_of(scratch / "whole"), outcome_of(scratch / "killed"));
+}
+
+TEST_CASE("a wall that a stage adds into the bed stops the run", "[run]") {
+  const ScratchFolder scratch;
+  RunArguments a = arguments_for(scratch / "run", 1,
+                                 {"wall.plug.present=true", "stage.settle.until=0.1", "stage.discharge.remove=[]",
+                                  "stage.discharge.add=[\"lid\"]"});
+  std::ofstream(a.scene, std::ios::app) << "[[wall]]\nname = \"lid\"\nprofile = [[0, 0.01], [0.03, 0.01]]\n"
+                                           "material = \"wall\"\npresent = false\n";
+  CHECK_THROWS_WITH(command_run(a), Catch::Matchers::Contains("the wall 'lid' is added through grain"));
+  CHECK(std::filesystem::exists(scratch / "run/frames/crash_particles.hdf"));
+}
