@@ -151,23 +151,31 @@ int Vessel::carrier(int f) const {
   return -1;
 }
 
-WallProximity Vessel::proximity(int f, Vec3 p) const {
-  const WallFeature& x = feature(f);
+namespace {
+
+/// Nearest place of a plane or of the endless cylinder.
+[[gnu::noinline]] WallProximity proximity_of_plane_or_core(const WallFeature& x, Vec3 p) {
   WallProximity result;
+  result.minimum = true;
   if (x.kind == WallFeature::Kind::plane) {
     const double height = dot(p, x.plane_normal) - x.plane_offset;
     result.distance = std::abs(height);
     result.normal = height < 0 ? x.plane_normal : -x.plane_normal;
-    result.minimum = true;
-    return result;
-  }
-  if (x.kind == WallFeature::Kind::core) {
+  } else {
     const double r = std::hypot(p.x, p.y), beyond = r - x.core_radius;
     result.distance = std::abs(beyond);
     if (r > 0) result.normal = (beyond < 0 ? 1 / r : -1 / r) * Vec3{p.x, p.y, 0};
-    result.minimum = true;
-    return result;
   }
+  return result;
+}
+
+}  // namespace
+
+WallProximity Vessel::proximity(int f, Vec3 p) const {
+  const WallFeature& x = feature(f);
+  WallProximity result;
+  if (__builtin_expect(x.kind == WallFeature::Kind::plane || x.kind == WallFeature::Kind::core, 0))
+    return proximity_of_plane_or_core(x, p);
   // The half plane through the axis and the point; on the axis itself the one with phi = 0.
   const double r = slot_ ? p.x : std::hypot(p.x, p.y);
   const Vec3 outward = slot_ || r == 0 ? Vec3{1, 0, 0} : Vec3{p.x / r, p.y / r, 0};

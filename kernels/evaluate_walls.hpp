@@ -72,7 +72,7 @@ private:
       if (c_.touching[o] != left || !(beside(c_.feature[o]) || shares_edge(c_.feature[o], c_.feature[k]))) continue;
       c_.history.set(k, c_.history.get(o));
       c_.normal.set(k, c_.normal.get(o));
-      c_.rolling_moment.set(k, c_.rolling_moment.get(o));
+      if constexpr (has_couples(friction)) c_.rolling_moment.set(k, c_.rolling_moment.get(o));
       return;
     }
   }
@@ -96,7 +96,7 @@ private:
       c_.history.set(k, {});
       c_.force.set(k, {});
       c_.torque.set(k, {});
-      c_.rolling_moment.set(k, {});
+      if constexpr (has_couples(friction)) c_.rolling_moment.set(k, {});
       return;
     }
     const int wall = state_.vessel.carrier(c_.feature[k]);

@@ -55,10 +55,10 @@ inline Vec3 pinned_at_axis(Vec3 v, Vec3 position, double radius) {
 inline Vec3 spun(Vec3 w, Vec3 t, double cap, double inertia, double h, double& loss) {
   const double rate = h / inertia;
   const Vec3 free = w + rate * t;
-  const double left = std::max(0.0, 1 - rate * cap / std::sqrt(dot(free, free) + tiny));
-  const Vec3 now = left * free;
-  loss += taken(inertia, w, free, now);
-  return now;
+  const double square = dot(free, free);
+  const double left = std::max(0.0, 1 - rate * cap / std::sqrt(square + tiny));
+  loss += 0.5 * inertia * (1 - left) * (dot(free, w) + left * square);  // taken() for now = left free
+  return left * free;
 }
 inline Vec3 spun_freely(Vec3 w, Vec3 t, double inertia, double h) { return w + (h / inertia) * t; }
 
