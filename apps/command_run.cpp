@@ -54,8 +54,8 @@ public:
 private:
   /// Whether the file that is locked is still the one of this name: its last owner may have removed it meanwhile.
   bool still_named() const {
-    struct stat ours {
-    }, named{};
+    struct stat ours {};
+    struct stat named {};
     return ::fstat(descriptor_, &ours) == 0 && ::stat(path_.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
            ours.st_dev == named.st_dev;
   }
