@@ -55,7 +55,10 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
     s.line_.note(damaged + ": damaged, set aside; going back to " + *newest);
   s.state_ = std::make_unique<State>(make_domain(*s.scene_));
   const CheckpointExtra extra = read_checkpoint(*newest, *s.state_);
+  require_fit(*s.state_, *s.scene_, *newest);
   s.memory_ = RunMemory::from_text(extra.run_state, *newest);
+  if (s.memory_.stage < 0 || s.memory_.stage > static_cast<std::int64_t>(s.scene_->stages.size()))
+    throw FileError(*newest + ": the run's memory is in a stage that the scene has not");
   s.dt_ = s.memory_.time_step;
   if (!s.memory_.scene_name.empty()) s.scene_->name = s.memory_.scene_name;
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);
