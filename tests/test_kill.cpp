@@ -5,6 +5,7 @@
 
 #include "apps/commands.hpp"
 #include "tests/real_program.hpp"
+#include "tests/same_run.hpp"
 
 using namespace wedge;
 using namespace wedge::test;
