@@ -16,14 +16,15 @@ namespace {
 /// Runs a scene to its end in sessions that are killed; `left` kills are to be had still.
 class KilledRun {
 public:
-  KilledRun(std::string scene, std::string folder, double session, std::mt19937& random)
-      : scene_(std::move(scene)), folder_(std::move(folder)), session_(session), random_(random) {}
+  KilledRun(std::vector<std::string> run, std::string folder, double session, std::mt19937& random)
+      : run_(std::move(run)), folder_(std::move(folder)), session_(session), random_(random) {}
 
   void to_its_end(int& left) {
     for (bool begun = false;;) {
       const std::string threads = std::to_string(1 + random_() % 3);
-      Program session = begun ? wedge_program({"resume", folder_, "-j", threads})
-                              : wedge_program({"run", scene_, "-o", folder_, "-j", threads});
+      std::vector<std::string> words = begun ? std::vector<std::string>{"resume", folder_} : run_;
+      words.insert(words.end(), {"-j", threads});
+      Program session = wedge_program(words);
       const double moment = session_ * std::uniform_real_distribution<double>(0, 1)(random_);
       if (left > 0 && !session.ends_within(moment)) {
         session.send(SIGKILL);
@@ -44,7 +45,8 @@ public:
   }
 
 private:
-  std::string scene_, folder_;
+  std::vector<std::string> run_;  // the words that begin it
+  std::string folder_;
   double session_;  // s: kills come at random within this time
   std::mt19937& random_;
 };
@@ -64,7 +66,9 @@ TEST_CASE("a run killed at random moments and resumed is the run that nobody kil
   std::mt19937 random(std::random_device{}());
   for (int runs = 0; left > 0; ++runs) {
     const std::string folder = scratch / ("killed" + std::to_string(runs));
-    KilledRun(scene, folder, 0.6 * needed, random).to_its_end(left);
+    // Every other run has checkpoints at its start and at the ends of stages alone, as long runs have for a while.
+    const std::string checkpoints = runs % 2 == 0 ? "output.checkpoints=600" : "output.checkpoints=0.01";
+    KilledRun({"run", scene, "-o", folder, "--set", checkpoints}, folder, 0.6 * needed, random).to_its_end(left);
     check_same_run(folder, whole);
     std::filesystem::remove_all(folder);
   }
