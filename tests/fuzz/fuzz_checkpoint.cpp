@@ -75,7 +75,7 @@ private:
     if (action_ % 4 == 0 && least == 0) array.resize(place_ % 20);
     if (array.empty()) return;
     auto& number = array[place_ % array.size()];
-    number = action_ % 4 == 1 ? static_cast<T>(value_ * 100000) : static_cast<T>(value_ % 12);
+    number = action_ % 4 == 1 ? static_cast<T>(100000.0 * value_) : static_cast<T>(value_ % 12);
   }
 
   void visit_all(State& s) {
