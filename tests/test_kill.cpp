@@ -31,7 +31,7 @@ public:
         --left;
       }
       const Ended ended = session.wait();
-      INFO("kills left: " << left << "\n" << ended.errors);
+      INFO("kills left: " << left << "\n" << ended.output << ended.errors);
       if (ended.code == exit_code::ok) return;
       if (ended.code != 128 + SIGKILL) {  // refused: it was killed before there was anything to go on with
         REQUIRE(ended.code == exit_code::file);

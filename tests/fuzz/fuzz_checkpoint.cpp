@@ -6,6 +6,7 @@
 
 #include "core/checksum.hpp"
 #include "core/require.hpp"
+#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "tests/fuzz/fuzz_readers.hpp"
 #include "tests/sample_state.hpp"
@@ -21,6 +22,23 @@ void write_with_head(const std::string& path, const std::string& content) {
   std::snprintf(head.data(), head.size(), "wedge checkpoint 2\nbytes %020llu\nfnv1a64 %016llx\n",
                 static_cast<unsigned long long>(content.size()), static_cast<unsigned long long>(hash));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << head << content;
+}
+
+/// What stands behind the head of a good checkpoint.
+std::string good_content(const std::string& path) {
+  write_checkpoint(path, sample_state(), {"scene", "resolved", {{"stage", "0"}}});
+  return read_text_file(path).substr(512);
+}
+
+/// Changes to single bytes of a good file: place (two bytes), new value.
+std::string patched(std::string content, const std::string& bytes) {
+  for (std::size_t at = 1; at + 3 <= bytes.size(); at += 3) {
+    const auto byte = [&](std::size_t k) {
+      return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + k]));
+    };
+    content[(256 * byte(0) + byte(1)) % content.size()] = bytes[at + 2];
+  }
+  return content;
 }
 
 /// Follows every index of a state, as the passes of a step do; a sanitizer sees a step outside.
@@ -75,7 +93,7 @@ private:
     if (action_ % 4 == 0 && least == 0) array.resize(place_ % 20);
     if (array.empty()) return;
     auto& number = array[place_ % array.size()];
-    number = action_ % 4 == 1 ? static_cast<T>(100000.0 * value_) : static_cast<T>(value_ % 12);
+    number = action_ % 4 == 1 ? static_cast<T>(65536.0 * value_) : static_cast<T>(value_ % 12);
   }
 
   void visit_all(State& s) {
@@ -112,6 +130,9 @@ void checkpoint(const std::string& bytes) {
   const std::string path = scratch / "checkpoint_000000000001.hdf";
   if (bytes[0] == 'h') {
     write_with_head(path, bytes.substr(1));
+  } else if (bytes[0] == 'p') {
+    static const std::string good = good_content(path);
+    write_with_head(path, patched(good, bytes));
   } else {
     State changed = sample_state();
     Changes(bytes).apply(changed);

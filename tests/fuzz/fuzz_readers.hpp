@@ -13,7 +13,8 @@ void scene(const std::string& bytes);
 void csv(const std::string& bytes);
 
 /// What stands behind the head of a checkpoint; the head is made to fit. Accepted: all indices are followed.
-/// The first byte says which: 'h' the HDF5 file itself follows; else a list of changes to a good state (see there).
+/// The first byte says which: 'h' the HDF5 file itself follows, 'p' changes to the bytes of a good file; else
+/// changes to the numbers of a good state (see there).
 void checkpoint(const std::string& bytes);
 
 }  // namespace wedge::fuzz
