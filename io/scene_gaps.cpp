@@ -228,7 +228,8 @@ std::optional<Gap> bottleneck(const std::vector<const WallDescription*>& walls, 
     for (const Point& point : wall->profile) widest = std::max(widest, 2 * point.norm());
   double passes = diameter, stops = 2 * widest;
   if (leaks(walls, fill, stops / 2, diameter, slot)) return {};
-  while (stops - passes > 0.01 * diameter) {
+  // 40 halvings: enough for any vessel on Earth; one of 1e300 m would never come down to a hundredth of a grain.
+  for (int halvings = 0; halvings < 40 && stops - passes > 0.01 * diameter; ++halvings) {
     const double middle = 0.5 * (passes + stops);
     (leaks(walls, fill, middle / 2, diameter, slot) ? passes : stops) = middle;
   }

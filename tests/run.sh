@@ -36,7 +36,7 @@ fuzz_all() {
   local seconds=$1 reader folder failed=0
   for reader in scene csv checkpoint; do
     folder=build/fuzz/work/$reader
-    mkdir -p "$folder/corpus" "$folder/finds"
+    mkdir -p "$folder/corpus" "$folder/finds" tests/fuzz/finds/$reader
     echo "== $reader: $seconds s"
     (cd "$folder" && ../../tests/fuzz_$reader corpus ../../../../tests/fuzz/seeds/$reader ../../../../tests/fuzz/finds/$reader \
       -dict=../../../../tests/fuzz/$reader.dict -artifact_prefix=finds/ -max_total_time="$seconds" -timeout=20 \
