@@ -2,12 +2,14 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 
 #include "apps/commands.hpp"
 #include "apps/interrupt.hpp"
@@ -30,48 +32,80 @@ namespace fs = std::filesystem;
 /// Holds the run's log open and locked, so that no second program writes into the same folder.
 class FolderLock {
 public:
-  explicit FolderLock(const RunFolder& folder)
-      : descriptor_(::open(folder.log().c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
-    if (descriptor_ < 0) throw_file_error(folder.log(), "cannot open", errno);
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(descriptor_);
-      throw FileError(folder.path() + ": another wedge is running in this folder");
-    }
+  explicit FolderLock(const RunFolder& folder) : path_(folder.log()) {
+    do {
+      if (descriptor_ >= 0) ::close(descriptor_);
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+      if (descriptor_ < 0) throw_file_error(path_, "cannot open", errno);
+      if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        ::close(descriptor_);
+        throw FileError(folder.path() + ": another wedge is running in this folder");
+      }
+    } while (!still_named());
   }
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
   ~FolderLock() { ::close(descriptor_); }
+  /// Empties the log.
+  void empty_log() const {
+    if (::ftruncate(descriptor_, 0) != 0) throw_file_error(path_, "cannot empty", errno);
+  }
 
 private:
-  int descriptor_;
+  /// Whether the file that is locked is still the one of this name: its last owner may have removed it meanwhile.
+  bool still_named() const {
+    struct stat ours {};
+    struct stat named {};
+    return ::fstat(descriptor_, &ours) == 0 && ::stat(path_.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
+           ours.st_dev == named.st_dev;
+  }
+  std::string path_;
+  int descriptor_ = -1;
 };
 
 bool newest_valid_checkpoint_or_none(const RunFolder& folder) {
   return fs::is_directory(folder.checkpoints()) && newest_valid_checkpoint(folder.checkpoints()).has_value();
 }
 
-/// Takes back what a run that never began has put into its folder, so that the folder can be used again.
-void leave_folder(const RunFolder& folder) {
-  if (newest_valid_checkpoint_or_none(folder)) return;
+/// Takes back what a run that never began has put into its folder.
+void clear_folder(const RunFolder& folder) {
   std::error_code ignored;
-  for (const std::string& file :
-       {folder.scene(), folder.resolved_scene(), folder.provenance(), folder.log(), folder.progress()})
+  for (const std::string& file : {folder.scene(), folder.resolved_scene(), folder.provenance(), folder.progress()})
     fs::remove(file, ignored);
   for (const std::string& sub :
        {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()})
     fs::remove_all(sub, ignored);
 }
 
-/// Makes the folder of a new run; refuses one that holds another run, unless that broke down before its first step.
-void claim_folder(const RunFolder& folder) {
+/// The same and the log, so that the folder can be used again.
+void leave_folder(const RunFolder& folder) {
+  if (newest_valid_checkpoint_or_none(folder)) return;
+  clear_folder(folder);
+  std::error_code ignored;
+  fs::remove(folder.log(), ignored);
+}
+
+/// Makes the folder of a new run and locks it; refuses one that holds another run, unless that broke down or was
+/// killed before its first step.
+std::unique_ptr<FolderLock> claim_folder(const RunFolder& folder) {
   std::error_code error;
   fs::create_directories(folder.path(), error);
   if (error) throw FileError(folder.path() + ": cannot make the folder: " + error.message());
-  if (folder.failed_at_start()) leave_folder(folder);
-  for (const std::string& mark : {folder.scene(), folder.resolved_scene(), folder.log()})
-    if (fs::exists(mark))
-      throw FileError(folder.path() + ": holds another run (" + fs::path(mark).filename().string() +
-                      "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
+  const bool logged = fs::exists(folder.log());
+  std::string mark;
+  for (const std::string& file : {folder.scene(), folder.resolved_scene(), folder.log()})
+    if (mark.empty() && fs::exists(file)) mark = fs::path(file).filename().string();
+  if (mark.empty() || logged) {
+    auto lock = std::make_unique<FolderLock>(folder);
+    if (folder.failed_at_start()) {
+      clear_folder(folder);
+      lock->empty_log();
+      return lock;
+    }
+    if (mark.empty() || folder.never_began()) return lock;
+  }
+  throw FileError(folder.path() + ": holds another run (" + mark +
+                  "). Choose another folder with -o, or go on with it: wedge resume " + folder.path());
 }
 
 void print_timings(Simulation& run) {
@@ -124,8 +158,7 @@ int command_run(const RunArguments& arguments) {
   for (const std::string& warning : scene_warnings(scene))
     std::fprintf(stderr, "%s: warning: %s\n", arguments.scene.c_str(), warning.c_str());
   const RunFolder folder(arguments.folder);
-  claim_folder(folder);
-  const FolderLock lock(folder);
+  const std::unique_ptr<FolderLock> lock = claim_folder(folder);
   const int threads = choose_threads(arguments.threads, scene);
   catch_interrupts();
   write_text_file_atomically(folder.scene(), scene.text);
@@ -155,9 +188,13 @@ int command_resume(const RunArguments& arguments) {
     throw FileError(folder.path() + ": the run broke down before its first step (" +
                     fs::path(folder.log()).filename().string() +
                     " says why); correct its start and run it again, into the same folder if you like");
+  const FolderLock lock(folder);
+  if (folder.never_began())
+    throw FileError(folder.path() +
+                    ": the run was stopped before its first step; begin it again: wedge run SCENE.toml -o " +
+                    folder.path());
   Scene scene = read_scene(folder.resolved_scene(), {});
   scene.text = read_text_file(folder.scene());
-  const FolderLock lock(folder);
   choose_threads(arguments.threads, scene);
   catch_interrupts();
   Simulation run = Simulation::resume(std::move(scene), folder);

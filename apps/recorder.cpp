@@ -57,31 +57,36 @@ Recorder::Recorder(const RunFolder& folder, const Scene& scene, const Vessel& ve
   for (const std::string& path :
        {folder.path() + "/series", folder.frames(), folder.checkpoints(), folder.results()})
     make_folder(path);
-  open_series(vessel, resume_time);
+  open_series(vessel, memory, resume_time);
   if (!resume_time) return;
   forget_later_frames(memory);
   forget_later_stages(memory);
 }
 
-void Recorder::open_series(const Vessel& vessel, std::optional<double> resume_time) {
-  const auto open = [&](const char* name, const std::vector<SeriesColumn>& columns) {
-    return resume_time ? SeriesFile::reopen(folder_.series(name), columns, *resume_time)
+void Recorder::open_series(const Vessel& vessel, const RunMemory& memory, std::optional<double> resume_time) {
+  const auto open = [&](const char* name, const std::vector<SeriesColumn>& columns, double last) {
+    return resume_time ? SeriesFile::reopen(folder_.series(name), columns, last)
                        : SeriesFile::create(folder_.series(name), columns);
   };
-  energies_.emplace(open("energies", energy_columns(scene_.output.energy_budget)));
-  ledger_.emplace(open("ledger", {{"time", "s"}, {"in", ""}, {"inside", ""}, {"out", ""}}));
-  discharge_.emplace(open("discharge", {{"time", "s"},
-                                        {"crossed", "s"},
-                                        {"id", ""},
-                                        {"layer", ""},
-                                        {"x", "m"},
-                                        {"y", "m"},
-                                        {"z", "m"},
-                                        {"vx", "m/s"},
-                                        {"vy", "m/s"},
-                                        {"vz", "m/s"},
-                                        {"mass", "kg"}}));
-  walls_.emplace(open("walls", wall_columns(vessel)));
+  // A row of the checkpoint's own time may have been written after it: the run's memory, not the clock, tells.
+  const double row = memory.last_row;
+  energies_.emplace(open("energies", energy_columns(scene_.output.energy_budget), row));
+  ledger_.emplace(open("ledger", {{"time", "s"}, {"in", ""}, {"inside", ""}, {"out", ""}}, row));
+  walls_.emplace(open("walls", wall_columns(vessel), row));
+  const double departure = resume_time.value_or(0);  // departures are written before a checkpoint
+  discharge_.emplace(open("discharge",
+                          {{"time", "s"},
+                           {"crossed", "s"},
+                           {"id", ""},
+                           {"layer", ""},
+                           {"x", "m"},
+                           {"y", "m"},
+                           {"z", "m"},
+                           {"vx", "m/s"},
+                           {"vy", "m/s"},
+                           {"vz", "m/s"},
+                           {"mass", "kg"}},
+                          departure));
 }
 
 void Recorder::forget_later_frames(const RunMemory& memory) {

@@ -41,7 +41,7 @@ public:
   double series_every() const { return series_every_; }
 
 private:
-  void open_series(const Vessel& vessel, std::optional<double> resume_time);
+  void open_series(const Vessel& vessel, const RunMemory& memory, std::optional<double> resume_time);
   void forget_later_frames(const RunMemory& memory);
   void forget_later_stages(const RunMemory& memory);
   void list_frames(const RunMemory& memory) const;

@@ -28,6 +28,17 @@ bool RunFolder::failed_at_start() const {
   return p.state == "failed" && p.step == 0 && !can_go_on;
 }
 
+bool RunFolder::never_began() const {
+  std::error_code error;
+  if (fs::file_size(log(), error) != 0 || error) return false;  // the first checkpoint is the log's first line
+  if (fs::exists(progress())) return false;
+  for (const std::string& folder : {checkpoints(), frames()}) {
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".hdf") return false;
+  }
+  return true;
+}
+
 std::string RunFolder::file_name_of(const std::string& stage) {
   std::string name;
   for (const char c : stage) {

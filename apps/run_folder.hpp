@@ -42,6 +42,8 @@ public:
   void require_run() const;
   /// Whether a run broke down here before its first step: nothing is there to go on with.
   bool failed_at_start() const;
+  /// Whether a run was killed here before it had written anything to go on with. Pre: nobody runs in it.
+  bool never_began() const;
   /// A stage's name as part of the name of a file: what a file system may refuse, and blanks, as %XX.
   static std::string file_name_of(const std::string& stage);
 

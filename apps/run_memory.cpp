@@ -1,7 +1,9 @@
 // run_memory.cpp: the driver's memory as text and back.
 #include "apps/run_memory.hpp"
 
+#include <cmath>
 #include <sstream>
+#include <type_traits>
 
 #include "core/require.hpp"
 #include "io/csv.hpp"
@@ -62,7 +64,10 @@ RunMemory RunMemory::from_text(const std::vector<std::pair<std::string, std::str
   };
   RunMemory m;
   for_each_number(m, [&](const char* name, auto& member) {
-    member = static_cast<std::decay_t<decltype(member)>>(number(find(name), name, path));
+    const double value = number(find(name), name, path);
+    if (!std::is_same_v<decltype(member), double&> && !(std::fabs(value) <= 9007199254740992.0))  // 2^53
+      throw FileError(path + ": the run's memory has no whole number under '" + name + "'");
+    member = static_cast<std::decay_t<decltype(member)>>(value);
   });
   std::istringstream times(find("frame_times"));
   for (std::string t; times >> t;) m.frame_times.push_back(number(t, "frame_times", path));

@@ -10,6 +10,7 @@
 #include "core/require.hpp"
 #include "core/time_scales.hpp"
 #include "io/checkpoint.hpp"
+#include "io/scene_file.hpp"
 #include "io/state_csv.hpp"
 #include "kernels/fill.hpp"
 #include "kernels/time_step.hpp"
@@ -49,6 +50,22 @@ void read_grains(State& state, const Scene& scene, const StateFile& file) {
   state.put_in = p.count();
 }
 
+/// Gives grains that were counted by the materials of the run in `from` their places among those of `scene`.
+void rename_materials(Particles& p, const CheckpointExtra& from, const Scene& scene, const std::string& path) {
+  const std::vector<std::string> there = material_names(parse_scene(from.resolved_scene, path, {}, ""));
+  const std::vector<std::string> here = material_names(scene);
+  for (auto& material : p.material) {
+    if (material < 0 || static_cast<std::size_t>(material) >= there.size())
+      throw FileError(path + ": a grain has a material that its own scene has not");
+    const std::string& name = there[static_cast<std::size_t>(material)];
+    const auto place = std::find(here.begin(), here.end(), name);
+    if (place == here.end())
+      throw SceneError("start.from: '" + path + "' holds grains of the material '" + name +
+                       "', which the scene lacks. Add [material." + name + "] and its contacts.");
+    material = static_cast<std::int32_t>(place - here.begin());
+  }
+}
+
 /// Another run's grains with their contacts; clock, ledgers and walls are this run's own.
 void take_over(State& state, const Scene& scene) {
   std::string file = scene.start_from;
@@ -59,7 +76,7 @@ void take_over(State& state, const Scene& scene) {
     if (!newest) throw FileError(folder + ": holds no valid checkpoint to start from");
     file = *newest;
   }
-  read_checkpoint(file, state);
+  rename_materials(state.particles, read_checkpoint(file, state), scene, file);
   const State fresh = make_domain(scene);
   for (int w = 0; w < state.vessel.wall_count(); ++w) {
     state.vessel.set_present(w, fresh.vessel.present(w));
@@ -74,7 +91,28 @@ void take_over(State& state, const Scene& scene) {
   TimeStep::expire_list(state);
 }
 
+/// Whether contacts of grains have couples in this scene.
+bool has_couples(const Scene& scene) {
+  const auto& pairs = scene.interactions.entries();
+  return scene.contact.rolling != RollingModel::none &&
+         (scene.contact.rolling == RollingModel::elastic_plastic_spring ||
+          scene.contact.rolling_velocity == RollingVelocity::relative) &&
+         std::any_of(pairs.begin(), pairs.end(), [](const Interaction& pair) { return pair.rolling > 0; });
+}
+
 }  // namespace
+
+void require_fit(const State& state, const Scene& scene, const std::string& path) {
+  const Particles& p = state.particles;
+  const auto unknown = [&](std::int32_t m) {
+    return m < 0 || static_cast<std::size_t>(m) >= scene.materials.size();
+  };
+  if (std::any_of(p.material.begin(), p.material.end(), unknown))
+    throw FileError(path + ": a grain has a material that the scene has not");
+  const bool listed = std::isfinite(state.wall_travel);  // else the first step makes its list anew
+  if (listed && has_couples(scene) && state.contacts.couple.size() != state.contacts.first.size())
+    throw FileError(path + ": the contacts lack the rolling couples that the scene asks for");
+}
 
 State make_domain(const Scene& scene) {
   State state;

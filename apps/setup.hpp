@@ -15,6 +15,10 @@ State make_domain(const Scene& scene);
 /// Throws SceneError when grains find no room or lie outside the domain, FileError when a file cannot be read.
 State make_start(const Scene& scene);
 
+/// Throws FileError unless a state read from `path` has the materials and the couples of the scene it shall go on
+/// in.
+void require_fit(const State& state, const Scene& scene, const std::string& path);
+
 /// What to say of a start without grains: legal, since a sector may be empty, but seldom meant.
 std::string no_grains_text(const Scene& scene);
 

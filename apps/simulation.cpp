@@ -87,13 +87,14 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
   const auto newest = newest_valid_checkpoint(folder.checkpoints());
   if (!newest) throw FileError(folder.checkpoints() + ": no valid checkpoint to resume from");
   Simulation s(std::move(scene), folder);
-  for (const auto& entry : std::filesystem::directory_iterator(folder.checkpoints()))
-    if (entry.path().filename().string().rfind("checkpoint_", 0) == 0 && entry.path().extension() == ".hdf" &&
-        entry.path().string() > *newest)
-      s.line_.note(entry.path().string() + ": damaged, going back to " + *newest);
+  for (const std::string& damaged : set_aside_later(folder.checkpoints(), *newest))
+    s.line_.note(damaged + ": damaged, set aside; going back to " + *newest);
   s.state_ = std::make_unique<State>(make_domain(*s.scene_));
   const CheckpointExtra extra = read_checkpoint(*newest, *s.state_);
+  require_fit(*s.state_, *s.scene_, *newest);
   s.memory_ = RunMemory::from_text(extra.run_state, *newest);
+  if (s.memory_.stage < 0 || s.memory_.stage > static_cast<std::int64_t>(s.scene_->stages.size()))
+    throw FileError(*newest + ": the run's memory is in a stage that the scene has not");
   s.dt_ = s.memory_.time_step;
   if (!s.memory_.scene_name.empty()) s.scene_->name = s.memory_.scene_name;
   s.step_ = std::make_unique<TimeStep>(*s.scene_, *s.state_);

@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string_view>
 
 #include "core/checksum.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checkpoint_checks.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace wedge {
@@ -254,6 +256,8 @@ void write_particles(Hdf5Writer& file, const Particles& p, std::size_t images) {
 
 void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
   const std::size_t n = file.shape("particles/id").size();
+  if (n + images > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+    throw_file_error(file.path(), "the checkpoint is damaged: it has more grains than can be counted");
   p.resize(static_cast<Index>(n));
   Particles::for_each_field(p, [&](const FieldInfo& info, auto& field) {
     file.read(std::string("particles/") + info.name, field.data(), n);
@@ -265,22 +269,6 @@ void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
   for (Vec3Array* seen : {&p.velocity_seen, &p.angular_velocity_seen}) {
     for (Array<double>* component : {&seen->x, &seen->y, &seen->z}) component->assign(n + images, 0.0);
   }
-}
-
-/// Throws FileError unless the arrays that belong together have lengths that do.
-void check_lengths(const State& s, const std::string& path) {
-  const auto n = static_cast<std::size_t>(s.particles.count());
-  bool fit = s.images.turn.size() == s.images.owner.size();
-  ContactTable::for_each_field(s.contacts, [&](const FieldInfo&, const auto& field) {
-    fit = fit && field.size() == static_cast<std::size_t>(s.contacts.rows());
-  });
-  fit =
-      fit && s.contacts.outcome.size() == ContactTable::outcome_size * static_cast<std::size_t>(s.contacts.rows());
-  fit = fit && (s.contacts.row_begin.empty() || s.contacts.row_begin.size() == n + 1);
-  WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo&, const auto& field) {
-    fit = fit && field.size() == static_cast<std::size_t>(s.wall_contacts.rows());
-  });
-  if (!fit) throw_file_error(path, "the checkpoint is damaged: lengths of its arrays do not fit together");
 }
 
 }  // namespace
@@ -330,7 +318,7 @@ CheckpointExtra read_checkpoint(const std::string& path, State& state) {
   read_departures(file, state.departures);
   for_each_array(state, [&](const std::string& name, auto& array) { file.read(name, array); });
   read_particles(file, state.particles, static_cast<std::size_t>(state.images.count()));
-  check_lengths(state, path);
+  check_consistency(state, path);
   return read_extra(file);
 }
 

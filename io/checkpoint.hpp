@@ -47,6 +47,10 @@ bool checkpoint_is_valid(const std::string& path);
 /// cannot be read.
 std::optional<std::string> newest_valid_checkpoint(const std::string& folder);
 
+/// Renames the checkpoints with more steps than `newest`, which are damaged, to NAME.damaged: counted among the
+/// last ones they would drive out whole ones. Returns what they were called.
+std::vector<std::string> set_aside_later(const std::string& folder, const std::string& newest);
+
 /// A whole checkpoint of this step in the folder, whatever its name; nothing when there is none. Throws FileError
 /// when the folder cannot be read.
 std::optional<std::string> checkpoint_of_step(const std::string& folder, std::int64_t step);

@@ -71,6 +71,19 @@ std::optional<std::string> newest_valid_checkpoint(const std::string& folder) {
   return std::nullopt;
 }
 
+std::vector<std::string> set_aside_later(const std::string& folder, const std::string& newest) {
+  std::vector<std::string> later;
+  for (const std::string& name : checkpoints_in(folder)) {
+    const std::string path = folder + "/" + name;
+    if (path == newest) break;
+    std::error_code error;
+    fs::rename(path, path + ".damaged", error);
+    if (error) throw FileError(path + ": cannot rename: " + error.message());
+    later.push_back(path);
+  }
+  return later;
+}
+
 std::optional<std::string> checkpoint_of_step(const std::string& folder, std::int64_t step) {
   for (const std::string& name : names_in(folder)) {
     const std::string path = folder + "/" + name;

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <system_error>
 #include <utility>
 
 #include "core/require.hpp"
@@ -15,6 +19,8 @@
 namespace wedge {
 namespace {
 
+constexpr std::size_t largest_attribute = 65536;  // bytes, the library's own limit
+constexpr std::uintmax_t largest_packing = 1100;  // deflate packs 1032 bytes into one at best
 constexpr std::size_t chunk_bytes = std::size_t{1}
                                     << 20;  // upper bound of a chunk, the library's default chunk cache
 
@@ -271,6 +277,15 @@ void Hdf5Writer::close() {
 struct Hdf5Reader::Implementation {
   std::string path;
   Handle file;
+  std::uintmax_t file_size = 0;  // bytes
+
+  /// Throws unless `count` numbers of `bytes` each can be what the dataset holds on disk: a damaged length must not
+  /// become a request for memory.
+  void check_size(const std::string& name, hid_t dataset, std::uintmax_t count, std::size_t bytes) const {
+    const std::uintmax_t stored = H5Dget_storage_size(dataset);
+    if (stored <= file_size && count <= largest_packing * stored / std::max<std::size_t>(bytes, 1)) return;
+    throw_file_error(path, "dataset '" + name + "' is damaged: it claims to be larger than its file can hold");
+  }
 
   Handle open_attribute(const std::string& object, const std::string& name) const {
     Handle opened(H5Aopen_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -297,6 +312,8 @@ Hdf5Reader::Hdf5Reader(std::string path) : self_(std::make_unique<Implementation
   if (H5Fis_hdf5(self_->path.c_str()) <= 0) throw_file_error(self_->path, "is not an HDF5 file, or is cut short");
   self_->file = Handle(H5Fopen(self_->path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   check(self_->file.get(), self_->path, "cannot open");
+  std::error_code ignored;
+  self_->file_size = std::filesystem::file_size(self_->path, ignored);
 }
 Hdf5Reader::Hdf5Reader(Hdf5Reader&&) noexcept = default;
 Hdf5Reader& Hdf5Reader::operator=(Hdf5Reader&&) noexcept = default;
@@ -317,6 +334,8 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0) {
     throw_file_error(self_->path, attribute_name(object, name) + " is not a text of fixed length");
   }
+  if (H5Tget_size(type.get()) > largest_attribute)
+    throw_file_error(self_->path, attribute_name(object, name) + " is too long to be true");
   std::string text(H5Tget_size(type.get()), '\0');
   check(H5Aread(attribute.get(), type.get(), text.data()), self_->path,
         "cannot read the " + attribute_name(object, name));
@@ -345,6 +364,7 @@ std::string Hdf5Reader::text(const std::string& name) const {
       H5Sget_simple_extent_npoints(space.get()) != 1) {
     throw_file_error(self_->path, "dataset '" + name + "' is not a text of fixed length");
   }
+  self_->check_size(name, dataset.get(), 1, H5Tget_size(type.get()));
   std::string text(H5Tget_size(type.get()), '\0');
   check(H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), self_->path,
         "cannot read the dataset '" + name + "'");
@@ -358,6 +378,12 @@ Shape Hdf5Reader::shape(const std::string& name) const {
   if (rank < 1 || rank > 2) throw_file_error(self_->path, "dataset '" + name + "' is neither a list nor a table");
   hsize_t extent[2] = {0, 0};
   H5Sget_simple_extent_dims(space.get(), extent, nullptr);
+  if (rank == 2 && extent[1] == 0) extent[0] = 0;  // columns = 0 would mean a list
+  const hsize_t columns = std::max<hsize_t>(extent[1], 1);
+  if (extent[0] > std::numeric_limits<std::uint32_t>::max() || columns > std::numeric_limits<std::uint32_t>::max())
+    throw_file_error(self_->path, "dataset '" + name + "' is damaged: it is too large to be true");
+  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  if (extent[0] > 0) self_->check_size(name, dataset.get(), extent[0] * columns, H5Tget_size(type.get()));
   return {extent[0], extent[1]};
 }
 

@@ -165,14 +165,21 @@ Intervals free_at(const std::vector<const WallDescription*>& walls, double radiu
   return left;
 }
 
-Intervals without_repeats(const Intervals& intervals) {
-  Intervals unique;
+/// The same places with no two intervals of one kind that overlap: a vessel with inclined walls would otherwise add
+/// one in each row. What holds for either of two that overlap holds for both: they lie in the same gap of a row.
+Intervals merged(Intervals intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) {
+    return a.enclosed != b.enclosed ? a.enclosed < b.enclosed : a.low < b.low;
+  });
+  Intervals apart;
   for (const Interval& i : intervals) {
-    const bool known = std::any_of(unique.begin(), unique.end(),
-                                   [&](const Interval& u) { return u.low == i.low && u.high == i.high; });
-    if (!known) unique.push_back(i);
+    if (apart.empty() || apart.back().enclosed != i.enclosed || i.low > apart.back().high) {
+      apart.push_back(i);
+    } else {
+      apart.back().high = std::max(apart.back().high, i.high);
+    }
   }
-  return unique;
+  return apart;
 }
 
 /// Whether grains of this radius can get from the fill region to the outside without ever rising: they fall,
@@ -207,7 +214,7 @@ bool leaks(const std::vector<const WallDescription*>& walls, const RandomFill& f
         if (low <= high) next.push_back(to.enclosed ? to : Interval{low, high, false});
       }
     }
-    reached = without_repeats(next);
+    reached = merged(std::move(next));
     if (reached.empty() && z < fill.z_low) return false;
   }
   return !reached.empty();
@@ -221,7 +228,8 @@ std::optional<Gap> bottleneck(const std::vector<const WallDescription*>& walls, 
     for (const Point& point : wall->profile) widest = std::max(widest, 2 * point.norm());
   double passes = diameter, stops = 2 * widest;
   if (leaks(walls, fill, stops / 2, diameter, slot)) return {};
-  while (stops - passes > 0.01 * diameter) {
+  // 40 halvings: enough for any vessel on Earth; one of 1e300 m would never come down to a hundredth of a grain.
+  for (int halvings = 0; halvings < 40 && stops - passes > 0.01 * diameter; ++halvings) {
     const double middle = 0.5 * (passes + stops);
     (leaks(walls, fill, middle / 2, diameter, slot) ? passes : stops) = middle;
   }

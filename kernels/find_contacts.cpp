@@ -262,8 +262,8 @@ void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rul
   }
   c.row_begin[at(n)] = rows;
   ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
-  if (rules.couples)
-    ContactTable::for_each_couple_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
+  const Index couples = rules.couples ? rows : 0;  // none of a bed that was taken over from a run with couples
+  ContactTable::for_each_couple_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, couples); });
   resize_with_room(c.outcome, rows * static_cast<Index>(ContactTable::outcome_size));
   for_each_block(block_count(n), [&](Index b) {
     const Found& f = found[at(b)];

@@ -1,22 +1,52 @@
 #!/usr/bin/env bash
-# run.sh: builds wedge with assertions and warnings as errors and runs every test. With --clang: with clang. With
-# --validate: runs the tests that compare with known numbers and writes their tables into tests/README.md.
+# run.sh: builds wedge with assertions and warnings as errors and runs every test. Other ways to run them:
+#   --clang           built with clang
+#   --asan            under the address and undefined-behaviour sanitizers
+#   --tsan            under the thread sanitizer, with clang and its OpenMP runtime
+#   --nightly         the long ones: fifty kills, heavy drops, two million grains
+#   --validate        those that compare with known numbers, and the hard cases; writes their tables into tests/README.md
+#   --fuzz [SECONDS]  no tests: each reader under libFuzzer for so long (600 s), one after the other
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . apps/install_needed.sh
 
-case "${1:-}" in
-  "") folder=build/tests compiler=g++ packages=(g++) ;;
-  --validate) folder=build/tests compiler=g++ packages=(g++) ;;
-  --clang) folder=build/tests-clang compiler=clang++ packages=(clang libomp-dev) ;;
-  *) echo "usage: bash tests/run.sh [--clang | --validate]" >&2; exit 2 ;;
-esac
-if command -v "$compiler" >/dev/null && [ "$compiler" = g++ ]; then packages=(); fi
-install_needed "${packages[@]}"
-configure "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
-  -DWEDGE_ASSERTIONS=ON -DWEDGE_WARNINGS_AS_ERRORS=ON -DWEDGE_TESTS=ON
-cmake --build "$folder" -j "$(nproc)"
-[ "${1:-}" = --validate ] || exec ctest --test-dir "$folder" --output-on-failure -j 2 -LE nightly
+usage() {
+  echo "usage: bash tests/run.sh [--clang | --asan | --tsan | --nightly | --validate | --fuzz [SECONDS]]" >&2
+  exit 2
+}
+
+# build FOLDER COMPILER OPTION...
+build() {
+  local folder=$1 compiler=$2
+  shift 2
+  configure "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" -DWEDGE_ASSERTIONS=ON \
+    -DWEDGE_TESTS=ON "$@"
+  cmake --build "$folder" -j "$(nproc)"
+}
+
+# archer_library: tells the thread sanitizer what OpenMP orders; comes with libomp.
+archer_library() {
+  local found
+  found=$(find /usr/lib/llvm-* -name libarcher.so 2>/dev/null | sort -V | tail -n 1)
+  [ -n "$found" ] || { echo "error: libarcher.so of libomp is missing: false alarms would drown the true ones" >&2; exit 1; }
+  echo "$found"
+}
+
+# fuzz_all SECONDS: finds are put into build/fuzz/finds; what is worth keeping goes to tests/fuzz/finds by hand.
+fuzz_all() {
+  local seconds=$1 reader folder failed=0
+  for reader in scene csv checkpoint; do
+    folder=build/fuzz/work/$reader
+    mkdir -p "$folder/corpus" "$folder/finds" tests/fuzz/finds/$reader
+    echo "== $reader: $seconds s"
+    (cd "$folder" && ../../tests/fuzz_$reader corpus ../../../../tests/fuzz/seeds/$reader ../../../../tests/fuzz/finds/$reader \
+      -dict=../../../../tests/fuzz/$reader.dict -artifact_prefix=finds/ -max_total_time="$seconds" -timeout=20 \
+      -rss_limit_mb=3000 -max_len=65536 -print_final_stats=1 >log 2>&1) || failed=1
+    grep -E "stat::number_of_executed_units|SUMMARY|ERROR|terminate|what\(\)" "$folder/log" || true
+    ls "$folder/finds"
+  done
+  return $failed
+}
 
 # write_table NAME FILE: puts the rows of the table NAME in FILE between its markers in tests/README.md, in order.
 write_table() {
@@ -30,13 +60,51 @@ write_table() {
   cat "$2.md" >tests/README.md
 }
 
-rows=$(mktemp -d)
-trap 'rm -r "$rows"' EXIT
-export WEDGE_LADDER="$rows/rows"
-outcome=0
-ctest --test-dir "$folder" --output-on-failure -j 2 -L 'unit|validate|nightly' || outcome=$?
-write_table rungs "$WEDGE_LADDER"
-write_table orders "$WEDGE_LADDER"
-write_table hard "$WEDGE_LADDER"
-echo "The tables of tests/README.md are those of this run."
-exit "$outcome"
+# validate FOLDER: runs the tests that write rows, and writes the tables.
+validate() {
+  local rows outcome=0 table
+  rows=$(mktemp -d)
+  export WEDGE_LADDER="$rows/rows"
+  ctest --test-dir "$1" --output-on-failure -j 2 -L 'unit|validate|nightly' -E kill || outcome=$?
+  for table in rungs orders hard; do write_table $table "$WEDGE_LADDER"; done
+  rm -r "$rows"
+  echo "The tables of tests/README.md are those of this run."
+  return $outcome
+}
+
+[ $# -le 2 ] || usage
+mode=${1:-}
+[ $# -le 1 ] || [ "$mode" = --fuzz ] || usage
+case "$mode" in
+  "" | --nightly | --validate)
+    if command -v g++ >/dev/null; then install_needed; else install_needed g++; fi
+    build build/tests g++ -DWEDGE_WARNINGS_AS_ERRORS=ON
+    [ "$mode" != --validate ] || { validate build/tests; exit; }
+    [ "$mode" != --nightly ] || exec ctest --test-dir build/tests --output-on-failure -L nightly
+    exec ctest --test-dir build/tests --output-on-failure -j 2 -LE nightly ;;
+  --clang)
+    install_needed clang libomp-dev
+    build build/tests-clang clang++ -DWEDGE_WARNINGS_AS_ERRORS=ON
+    exec ctest --test-dir build/tests-clang --output-on-failure -j 2 -LE nightly ;;
+  --asan)
+    if command -v g++ >/dev/null; then install_needed; else install_needed g++; fi
+    build build/tests-asan g++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DWEDGE_SANITIZE=address,undefined -DWEDGE_PERF=OFF
+    export ASAN_OPTIONS=detect_stack_use_after_return=1
+    export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
+    exec ctest --test-dir build/tests-asan --output-on-failure -j 2 -LE nightly ;;
+  --tsan)
+    install_needed clang libomp-dev llvm
+    build build/tests-tsan clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DWEDGE_SANITIZE=thread -DWEDGE_PERF=OFF
+    # libomp is not instrumented: its own locks are left out, and Archer tells the sanitizer what they order.
+    export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1
+    OMP_TOOL_LIBRARIES=$(archer_library)
+    export OMP_TOOL_LIBRARIES
+    exec ctest --test-dir build/tests-tsan --output-on-failure -j 2 -LE nightly ;;
+  --fuzz)
+    case "${2:-600}" in *[!0-9]*) usage ;; esac
+    install_needed clang libomp-dev
+    build build/fuzz clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DWEDGE_SANITIZE=address,undefined -DWEDGE_FUZZ=ON \
+      -DWEDGE_NATIVE=OFF -DWEDGE_PERF=OFF
+    fuzz_all "${2:-600}" ;;
+  *) usage ;;
+esac

@@ -55,6 +55,7 @@ inline State sample_state(Index grains = 5) {
   Particles::for_each_field(s.particles,
                             [&](const FieldInfo&, auto& field) { fill_sample(field, next, start += 100); });
   for (double& r : s.particles.radius) r = 0.01 + std::abs(r);
+  for (double& m : s.particles.mass) m = 0.01 + std::abs(m);
   const auto slots = static_cast<std::size_t>(grains) + 2;
   s.images.owner = {0, 2};
   s.images.turn = {1, -1};
@@ -84,11 +85,16 @@ inline State sample_state(Index grains = 5) {
   s.contacts.row_begin.assign(static_cast<std::size_t>(grains) + 1, 3);
   s.contacts.row_begin[0] = 0;
   s.contacts.row_begin[1] = 2;
-  s.contacts.incoming_begin.assign(slots + 1, 3);
+  s.contacts.incoming_begin.assign(slots + 1, 2);
+  s.contacts.incoming_begin[0] = s.contacts.incoming_begin[1] = 0;
+  s.contacts.incoming_begin[2] = 1;
+  s.contacts.incoming_begin[slots] = 3;
   s.contacts.incoming = {0, 1, 2};
   s.wall_contacts.resize(3);
   WallContactTable::for_each_field(s.wall_contacts,
                                    [&](const FieldInfo&, auto& field) { fill_sample(field, next, start += 100); });
+  s.wall_contacts.feature = {0, 3, 2};
+  s.wall_contacts.touching = {1, 0, 1};
   s.wall_contacts.grain = {1, 2};
   s.wall_contacts.begin = {0, 1, 3};
   EnergyLedger::for_each_field(s.energy, [&](const char*, double& value) { value = next(); });
