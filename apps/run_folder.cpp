@@ -32,10 +32,8 @@ bool RunFolder::never_began() const {
   std::error_code error;
   if (fs::file_size(log(), error) != 0 || error) return false;  // the first checkpoint is the log's first line
   if (fs::exists(progress())) return false;
-  for (const std::string& folder : {checkpoints(), frames()}) {
-    for (const auto& entry : fs::directory_iterator(folder, error))
-      if (entry.path().extension() == ".hdf") return false;
-  }
+  for (const auto& entry : fs::directory_iterator(checkpoints(), error))
+    if (entry.path().extension() == ".hdf") return false;
   return true;
 }
 
