@@ -10,6 +10,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ public:
     arguments.push_back(nullptr);
     const std::string errors = scratch_ / "errors";
     process_ = fork();
-    if (process_ != 0) return;
+    if (process_ < 0) throw std::runtime_error("cannot start a program");  // and never send a signal to -1
+    if (process_ > 0) return;
     const int out = ::open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     const int err = ::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(out, STDOUT_FILENO);

@@ -53,7 +53,7 @@ TEST_CASE("relative: a sphere that rolls on a plate stops as with the limiter", 
   CHECK(norm(e.w(0)) < 1e-9);
 }
 
-TEST_CASE("relative: a pair of spheres keeps its angular momentum; against their own spins it does not",
+TEST_CASE("relative: a pair of spheres keeps its angular momentum, and against their own spins it does not",
           "[couples]") {
   for (const RollingVelocity velocity : {RollingVelocity::relative, RollingVelocity::own}) {
     Scene s = hopper_material();

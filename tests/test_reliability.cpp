@@ -79,7 +79,8 @@ std::string stopped_run(const ScratchFolder& scratch) {
 
 }  // namespace
 
-TEST_CASE("SIGTERM and SIGINT end with 130 and a checkpoint; going on is as if never stopped", "[reliability]") {
+TEST_CASE("SIGTERM, SIGINT and SIGHUP end with 130 and a checkpoint, and going on is as if never stopped",
+          "[reliability]") {
   const ScratchFolder scratch;
   write_text_file_atomically(scratch / "hopper.toml", short_hopper());
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
@@ -120,7 +121,7 @@ TEST_CASE("the wall-time limit ends with 75 and a checkpoint, as often as it is 
   check_same_run(folder, undisturbed());
 }
 
-TEST_CASE("a full disk ends with 4 and one line; earlier frames are whole; with room the run goes on",
+TEST_CASE("a full disk ends with 4 and one line, earlier frames are whole, and with room the run goes on",
           "[reliability]") {
   for (const char* size : {"size=150k", "size=300k", "size=450k", "size=600k", "size=800k"}) {
     const ScratchFolder scratch;

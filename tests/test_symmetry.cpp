@@ -26,7 +26,7 @@ TEST_CASE("a turn by k is counter-clockwise by k sector angles", "[symmetry]") {
   CHECK(s.turn_vector({1, 0, 0}, -2).y == Approx(-std::sqrt(3.0) / 2).epsilon(1e-15));
 }
 
-TEST_CASE("residues lie in (-n/2, n/2]", "[symmetry]") {
+TEST_CASE("residues lie above -n/2 and reach up to n/2", "[symmetry]") {
   for (int n : {2, 3, 4, 5, 12}) {
     const Symmetry s = Symmetry::rotation(n);
     for (int k = -3 * n; k <= 3 * n; ++k) {

@@ -121,32 +121,37 @@ private:
   std::int16_t value_ = 0;
 };
 
-}  // namespace
-
-void checkpoint(const std::string& bytes) {
-  static const ScratchFolder scratch;
+void read_and_follow(const std::string& folder, const std::string& path) {
   static volatile double sum = 0;
-  if (bytes.empty()) return;
-  const std::string path = scratch / "checkpoint_000000000001.hdf";
-  if (bytes[0] == 'h') {
-    write_with_head(path, bytes.substr(1));
-  } else if (bytes[0] == 'p') {
-    static const std::string good = good_content(path);
-    write_with_head(path, patched(good, bytes));
-  } else {
-    State changed = sample_state();
-    Changes(bytes).apply(changed);
-    write_checkpoint(path, changed, {"scene", "resolved", {{"stage", "0"}}});
-  }
   State state;
   state.symmetry = Symmetry::rotation(4);
   state.vessel = Vessel(sample_scene());
   try {
     read_checkpoint(path, state);
     sum = sum + follow_indices(state);
-    (void)checkpoint_of_step(scratch.path(), 1);
+    (void)checkpoint_of_step(folder, 1);
   } catch (const FileError&) {
   }
+}
+
+}  // namespace
+
+void checkpoint(const std::string& bytes) {
+  static const ScratchFolder scratch;
+  const std::string path = scratch / "checkpoint_000000000001.hdf";
+  State changed = sample_state();
+  Changes(bytes).apply(changed);
+  write_checkpoint(path, changed, {"scene", "resolved", {{"stage", "0"}}});
+  read_and_follow(scratch.path(), path);
+}
+
+void checkpoint_bytes(const std::string& bytes) {
+  static const ScratchFolder scratch;
+  const std::string path = scratch / "checkpoint_000000000001.hdf";
+  if (bytes.empty()) return;
+  static const std::string good = good_content(path);
+  write_with_head(path, bytes[0] == 'h' ? bytes.substr(1) : patched(good, bytes));
+  read_and_follow(scratch.path(), path);
 }
 
 }  // namespace wedge::fuzz

@@ -30,4 +30,7 @@ void replay(const std::string& reader, Reader&& read) {
 
 TEST_CASE("scenes that fuzzing found", "[fuzz]") { replay("scene", fuzz::scene); }
 TEST_CASE("tables that fuzzing found", "[fuzz]") { replay("csv", fuzz::csv); }
-TEST_CASE("checkpoints that fuzzing found", "[fuzz]") { replay("checkpoint", fuzz::checkpoint); }
+TEST_CASE("checkpoints that fuzzing found", "[fuzz]") {
+  replay("checkpoint", fuzz::checkpoint);
+  replay("checkpoint_bytes", fuzz::checkpoint_bytes);
+}
