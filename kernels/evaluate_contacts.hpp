@@ -145,8 +145,8 @@ double row_couple(const Pair& pair, const ContactPassArrays& a, Index k, Vec3 n,
 }
 
 /// One row: geometry, transport of the history, law, forces. Returns the losses of the step.
-/// The displacement grows by the trapezoidal rule: what is stored between steps is delta + (dt/2) v_t, so that the
-/// next half step needs no old velocity (kernels/README.md, "Stored displacement").
+/// The displacement grows by the trapezoidal rule from first touch on: what is stored between steps is
+/// delta + (dt/2) v_t, so that the next half step needs no old velocity (kernels/README.md, "Stored displacement").
 template <class Law, Friction friction, class Mix>
 __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix, const ContactPassArrays& a,
                                                                  Index k, double dt, OutcomeSlab& slab, Index row) {
@@ -169,9 +169,10 @@ __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix,
     v += cross(lever_i * wi + lever_j * wj, n);
     in.approach_velocity = dot(v, n);
     in.tangential_velocity = v - in.approach_velocity * n;
-    const Vec3 followed = follow_normal({a.hx[k], a.hy[k], a.hz[k]}, {a.nx[k], a.ny[k], a.nz[k]}, n);
-    in.displacement =
-        spin_about_normal(followed, n, 0.25 * dt * dot(wi + wj, n)) + (0.5 * dt) * in.tangential_velocity;
+    const Vec3 stored{a.hx[k], a.hy[k], a.hz[k]};
+    const Vec3 followed = follow_normal(stored, {a.nx[k], a.ny[k], a.nz[k]}, n);
+    in.displacement = spin_about_normal(followed, n, 0.25 * dt * dot(wi + wj, n)) +
+                      slip_time(stored, overlap, in.approach_velocity, dt) * in.tangential_velocity;
   }
 
   const ContactResponse out = Law::respond(pair.coefficients, in);
@@ -188,10 +189,10 @@ __attribute__((always_inline)) inline ContactLosses evaluate_row(const Mix& mix,
     slab.column[3][row] = q.x;
     slab.column[4][row] = q.y;
     slab.column[5][row] = q.z;
-    const Vec3 stored = on * (out.displacement + (0.5 * dt) * in.tangential_velocity);
-    a.hx[k] = stored.x;
-    a.hy[k] = stored.y;
-    a.hz[k] = stored.z;
+    const Vec3 keep = on * (out.displacement + (0.5 * dt) * in.tangential_velocity);
+    a.hx[k] = keep.x;
+    a.hy[k] = keep.y;
+    a.hz[k] = keep.z;
     if constexpr (has_couples(friction))
       losses.rolling = on * row_couple<friction>(pair, a, k, n, out, overlap, dt);
     a.nx[k] = n.x;

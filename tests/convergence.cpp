@@ -151,11 +151,10 @@ TEST_CASE("damped impacts converge with the order their law allows", "[convergen
 }
 
 TEST_CASE("oblique frictional impacts converge with the order their first touch allows", "[convergence]") {
-  const std::string first = "the first step in touch adds half a step of slip, wherever in it the touch fell: 1";
   for (const ContactLaw law : {ContactLaw::mindlin_deresiewicz, ContactLaw::hertz_mindlin}) {
     const std::string name = law_name(law);
     CHECK(order_within("4a" + name, "oblique impact, undamped, sticking (10 degrees, mu 0.6), " + name,
-                       measure_order(thrown({law, 0.6, 0}, 10), coarse_steps), 0.9, 1.4, first));
+                       measure_order(thrown({law, 0.6, 0}, 10), coarse_steps), 1.8, 2.2));
     CHECK(order_within("4b" + name, "oblique impact, undamped, stick and slip (45 degrees, mu 0.3), " + name,
                        measure_order(thrown({law, 0.3, 0}, 45), coarse_steps), 1.8, 2.2));
     CHECK(order_within("4c" + name, "oblique impact, undamped, sliding (75 degrees, mu 0.1), " + name,

@@ -196,7 +196,7 @@ TEST_CASE("hard: an empty sector, one grain, two sectors", "[hard]") {
          settles("pot", {"domain.angle=180", "domain.axis=images"}, 0.4));
 }
 
-TEST_CASE("hard: a sector of 3 degrees around an inner cylinder; thinner than a grain is refused", "[hard]") {
+TEST_CASE("hard: a sector of 3 degrees around an inner cylinder, and thinner than a grain is refused", "[hard]") {
   const std::string found = settles("hollow", {}, 0.4);
   report("16", "hollow: 3 degrees, D = 100 d, 500 grains",
          "nearly comes to rest, load = weight + dP/dt, budget closed", found);

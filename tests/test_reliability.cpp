@@ -56,11 +56,12 @@ std::size_t lines_of(const std::string& text) {
 
 /// Lines of what a run says on standard error but those that tell how far it is.
 std::size_t complaints_of(const std::string& text) {
-  std::size_t complaints = 0;
+  std::size_t complaints = 0;  // beside the progress, and the two lines that say how to go on
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const auto begins = [&](const char* word) { return line.rfind(word, 0) == 0; };
-    complaints += !begins("stage ") && !begins("settle (") && !begins("discharge (");
+    complaints += !begins("stage ") && !begins("settle (") && !begins("discharge (") && !begins("Last good checkpoint: ") &&
+                  !begins("When the cause is gone, go on with: wedge resume ");
   }
   return complaints;
 }

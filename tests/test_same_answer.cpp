@@ -107,6 +107,7 @@ TEST_CASE("a run stopped at any step goes on to the same bits", "[same]") {
       builds = state.list_builds;
     };
     for (const int stop : stops) {
+      if (begun && stop <= last_state(a.folder).step) continue;  // the way to a new list went past it
       stop_at(stop);
       if (stop != 3) continue;
       while (stopped_at_renewal == 0 && begun && last_state(a.folder).step < 400) {  // step by step to a new list

@@ -255,5 +255,5 @@ TEST_CASE("a frictional pair carried through a seam behaves as in free space", "
       CHECK(norm(a.v(0) - pair[0].v) > 1e-3);
     }
   }
-  CHECK(rung.within(1e-12 * d + 1e-13 * 20 * d));
+  CHECK(rung.within(2e-13 * 20 * d));
 }
