@@ -110,9 +110,8 @@ private:
     if constexpr (friction != Friction::none) {
       in.tangential_velocity = v - in.approach_velocity * n;
       const Vec3 wall_spin{0, 0, state_.vessel.wall(wall).spin}, stored = c_.history.get(k);
-      in.displacement =
-          spin_about_normal(follow_normal(stored, before, n), n, 0.25 * dt_ * dot(w + wall_spin, n)) +
-          slip_time(stored, in.overlap, in.approach_velocity, dt_) * in.tangential_velocity;
+      in.displacement = spin_about_normal(follow_normal(stored, before, n), n, 0.25 * dt_ * dot(w + wall_spin, n)) +
+                        slip_time(stored, in.overlap, in.approach_velocity, dt_) * in.tangential_velocity;
     }
     const ContactResponse out = Law::respond(coefficients, in);
     const Vec3 tangential = friction == Friction::none ? Vec3{} : out.tangential;

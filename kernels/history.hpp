@@ -20,10 +20,11 @@ inline Vec3 spin_about_normal(Vec3 u, Vec3 n, double half_angle) {
   return (scale * (1 - square)) * u + (2 * half_angle * scale) * cross(n, u);
 }
 
-/// Time [s] by which a displacement grows in a force step, at the tangential velocity of the step's end: half of dt for
-/// a contact that was there before (the other half is in `stored`; kernels/README.md, "Stored displacement"), and all
-/// the time since first touch, overlap over approach velocity [m/s], for a new one. A contact is new when nothing is
-/// stored; one that was there and has never slipped grows from zero velocity, so the difference is of order dt^2.
+/// Time [s] by which a displacement grows in a force step, at the tangential velocity of the step's end: half of dt
+/// for a contact that was there before (the other half is in `stored`; kernels/README.md, "Stored displacement"),
+/// and all the time since first touch, overlap over approach velocity [m/s], for a new one. A contact is new when
+/// nothing is stored; one that was there and has never slipped grows from zero velocity, so the difference is of
+/// order dt^2.
 inline double slip_time(Vec3 stored, double overlap, double approach_velocity, double dt) {
   const bool is_new = stored.x == 0 && stored.y == 0 && stored.z == 0;
   const double since_touch = approach_velocity * dt > overlap ? overlap / approach_velocity : dt;

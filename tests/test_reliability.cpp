@@ -60,8 +60,8 @@ std::size_t complaints_of(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const auto begins = [&](const char* word) { return line.rfind(word, 0) == 0; };
-    complaints += !begins("stage ") && !begins("settle (") && !begins("discharge (") && !begins("Last good checkpoint: ") &&
-                  !begins("When the cause is gone, go on with: wedge resume ");
+    complaints += !begins("stage ") && !begins("settle (") && !begins("discharge (") &&
+                  !begins("Last good checkpoint: ") && !begins("When the cause is gone, go on with: wedge resume ");
   }
   return complaints;
 }
