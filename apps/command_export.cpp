@@ -83,8 +83,7 @@ void take_doubles(ParticleFrame& frame, const std::string& source, const Scene& 
 }
 
 void write_csv(const std::string& output, const ParticleFrame& frame, const Scene& scene) {
-  std::vector<std::string> materials;
-  for (const Material& material : scene.materials) materials.push_back(material.name);
+  const std::vector<std::string> materials = grain_material_names(scene.materials);
   if (!output.empty()) return write_state_csv(output, frame.particles, materials);
   const PassingFile file;
   write_state_csv(file.path(), frame.particles, materials);

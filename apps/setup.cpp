@@ -18,16 +18,10 @@
 namespace wedge {
 namespace {
 
-std::vector<std::string> material_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Material& m : scene.materials) names.push_back(m.name);
-  return names;
-}
-
 /// A state file holds the grains of the whole vessel or of one sector; those outside the domain are an error.
 void read_grains(State& state, const Scene& scene, const StateFile& file) {
   const StateCsvDefaults defaults{0.5 * file.diameter, file.material};
-  state.particles = read_state_csv(file.path, defaults, material_names(scene));
+  state.particles = read_state_csv(file.path, defaults, grain_material_names(scene.materials));
   Particles& p = state.particles;
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
@@ -52,8 +46,8 @@ void read_grains(State& state, const Scene& scene, const StateFile& file) {
 
 /// Gives grains that were counted by the materials of the run in `from` their places among those of `scene`.
 void rename_materials(Particles& p, const CheckpointExtra& from, const Scene& scene, const std::string& path) {
-  const std::vector<std::string> there = material_names(parse_scene(from.resolved_scene, path, {}, ""));
-  const std::vector<std::string> here = material_names(scene);
+  const std::vector<std::string> there = grain_material_names(parse_scene(from.resolved_scene, path, {}, "").materials);
+  const std::vector<std::string> here = grain_material_names(scene.materials);
   for (auto& material : p.material) {
     if (material < 0 || static_cast<std::size_t>(material) >= there.size())
       throw FileError(path + ": a grain has a material that its own scene has not");

@@ -1,6 +1,7 @@
 // material.hpp: materials, what happens between two of them, and the table of pairs.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,21 @@ struct Material {
   double young = 0;    // Pa
   double poisson = 0;  // -
 };
+
+/// What a wall without any compliance is made of; grains cannot be. Its name is reserved.
+inline Material rigid_material() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  return {"rigid", infinity, infinity, 0};
+}
+inline bool is_rigid(const Material& m) { return m.name == "rigid"; }
+
+/// Names of the materials that grains can be made of, by index: the rigid one comes last and is left out.
+inline std::vector<std::string> grain_material_names(const std::vector<Material>& materials) {
+  std::vector<std::string> names;
+  for (const Material& m : materials)
+    if (!is_rigid(m)) names.push_back(m.name);
+  return names;
+}
 
 /// Contact parameters of a pair of materials. Which of them a law uses, kernels/README.md says.
 struct Interaction {

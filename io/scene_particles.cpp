@@ -16,7 +16,7 @@ namespace {
 const Quantity diameter_quantity = Quantity::positive("a diameter in metres, such as 0.005");
 
 std::optional<int> only_material(const Scene& scene) {
-  return scene.materials.size() == 1 ? std::optional<int>(0) : std::nullopt;
+  return grain_material_names(scene.materials).size() == 1 ? std::optional<int>(0) : std::nullopt;
 }
 
 /// sizes = [{ diameter, fraction, material }, ...]
@@ -44,7 +44,7 @@ std::vector<SizeClass> read_size_classes(TableReader& particles, const Scene& sc
         t.number("fraction", {"a fraction by number; all fractions add up to 1", 0, 1, false, true});
     if (fraction) c.fraction = *fraction;
     complete = complete && (fraction || list->size() == 1);
-    if (const auto m = read_material(t, scene, "material", material)) c.material = *m;
+    if (const auto m = read_grain_material(t, scene, "material", material)) c.material = *m;
     t.finish();
     sum += c.fraction;
     classes.push_back(c);
@@ -145,10 +145,8 @@ std::string read_path(TableReader& particles) {
 
 /// Mean diameter [m] of the grains in a file; 0 when it cannot be read.
 double mean_diameter_in(const std::string& path, const Scene& scene, int material) {
-  std::vector<std::string> names;
-  for (const Material& m : scene.materials) names.push_back(m.name);
   try {
-    const Particles grains = read_state_csv(path, {0, material}, names);
+    const Particles grains = read_state_csv(path, {0, material}, grain_material_names(scene.materials));
     double above = 0;  // the first radius: so the mean of equal grains is exact
     for (const double radius : grains.radius) above += radius - grains.radius[0];
     return grains.count() > 0 ? 2 * (grains.radius[0] + above / grains.count()) : 0;
@@ -180,13 +178,9 @@ void read_file_sizes(TableReader& particles, Scene& scene, std::optional<int> ma
   scene.particles.grains = file;
 }
 
-}  // namespace
-
-std::optional<int> read_material(TableReader& table, const Scene& scene, const std::string& key,
-                                 std::optional<int> otherwise) {
-  std::vector<std::string> names;
-  for (const Material& m : scene.materials) names.push_back(m.name);
-  if (names.empty()) {
+std::optional<int> read_material(TableReader& table, const Scene& scene, const std::vector<std::string>& names,
+                                 const std::string& key, std::optional<int> otherwise) {
+  if (scene.materials.empty()) {
     (void)table.has(key);  // that there is no material is told once
     return otherwise;
   }
@@ -199,11 +193,38 @@ std::optional<int> read_material(TableReader& table, const Scene& scene, const s
   if (!name) return {};
   const auto found = std::find(names.begin(), names.end(), *name);
   if (found != names.end()) return static_cast<int>(found - names.begin());
-  if (*name == "rigid")
-    table.error(key, "material 'rigid' is known but not built yet; use a material of high stiffness");
+  if (*name == rigid_material().name)
+    table.error(key, "only walls can be rigid", remedy);
   else
     table.error(key, "unknown material '" + *name + "'", suggestion(*name, names));
   return {};
+}
+
+/// Does any wall say that it is rigid?
+bool has_rigid_walls(const toml::table& root) {
+  const auto names_it = [](const toml::node* node) {
+    const auto text = node ? node->value<std::string>() : std::nullopt;
+    return text == rigid_material().name;
+  };
+  if (names_it(root["domain"]["axis_material"].node())) return true;
+  const toml::array* walls = root["wall"].as_array();
+  return walls && std::any_of(walls->begin(), walls->end(), [&](const toml::node& wall) {
+           return wall.is_table() && names_it(wall.as_table()->get("material"));
+         });
+}
+
+}  // namespace
+
+std::optional<int> read_grain_material(TableReader& table, const Scene& scene, const std::string& key,
+                                       std::optional<int> otherwise) {
+  return read_material(table, scene, grain_material_names(scene.materials), key, otherwise);
+}
+
+std::optional<int> read_wall_material(TableReader& table, const Scene& scene, const std::string& key,
+                                      std::optional<int> otherwise) {
+  std::vector<std::string> names = grain_material_names(scene.materials);
+  names.push_back(rigid_material().name);
+  return read_material(table, scene, names, key, otherwise);
 }
 
 void read_materials(SceneReading& reading, const toml::table& root, Scene& scene) {
@@ -214,6 +235,11 @@ void read_materials(SceneReading& reading, const toml::table& root, Scene& scene
       const std::string name(key.str());
       const toml::table* description = all.table(name);
       if (!description) continue;
+      if (name == rigid_material().name) {
+        all.error(name, "'" + name + "' is the name of a wall without any compliance and cannot be described",
+                  "name this material otherwise");
+        continue;
+      }
       TableReader t(reading, description, "material." + name, "[material." + name + "]");
       Material m;
       m.name = name;
@@ -234,6 +260,7 @@ void read_materials(SceneReading& reading, const toml::table& root, Scene& scene
   for (auto& entry : found) scene.materials.push_back(std::move(entry.second));
   if (scene.materials.empty())
     reading.diagnostics.error(all.here(), "no material", "describe one: [material.grain] density, young, poisson");
+  if (!scene.materials.empty() && has_rigid_walls(root)) scene.materials.push_back(rigid_material());
   scene.interactions = PairTable<Interaction>(static_cast<int>(scene.materials.size()));
 }
 
@@ -241,7 +268,7 @@ void read_grain_sizes(TableReader& particles, Scene& scene) {
   const bool classes_with_materials = particles.has("sizes") && !particles.has("material");
   const std::optional<int> material = classes_with_materials
                                           ? only_material(scene)
-                                          : read_material(particles, scene, "material", only_material(scene));
+                                          : read_grain_material(particles, scene, "material", only_material(scene));
   if (source_of(particles) == GrainSource::file) {
     read_file_sizes(particles, scene, material);
     return;

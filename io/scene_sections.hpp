@@ -16,8 +16,11 @@ const toml::array* open_tables(SceneReading& reading, const toml::table& root, c
 
 /// Index of the material that `key` of the table names; complains when it is unknown. Absent key: `otherwise`, and
 /// a complaint when that is none either.
-std::optional<int> read_material(TableReader& table, const Scene& scene, const std::string& key,
-                                 std::optional<int> otherwise);
+std::optional<int> read_grain_material(TableReader& table, const Scene& scene, const std::string& key,
+                                       std::optional<int> otherwise);
+/// The same for a wall, which may be of "rigid".
+std::optional<int> read_wall_material(TableReader& table, const Scene& scene, const std::string& key,
+                                      std::optional<int> otherwise);
 
 void read_materials(SceneReading& reading, const toml::table& root, Scene& scene);
 /// Sizes and materials of the grains; sets reading.mean_diameter. Needs materials.

@@ -72,7 +72,7 @@ void read_axis(TableReader& t, const Scene& scene, Domain& domain) {
     t.error("inner_radius", "only the axis 'hollow' has an inner radius", "write axis = \"hollow\", or remove it");
   domain.inner_radius = t.length("inner_radius", radius).value_or(0);
   if (solid)
-    domain.axis_material = read_material(t, scene, "axis_material", only_grain_material(scene)).value_or(0);
+    domain.axis_material = read_wall_material(t, scene, "axis_material", only_grain_material(scene)).value_or(0);
   if (!solid && t.has("axis_material"))
     t.error("axis_material", "the axis '" + axis_names.of(domain.axis) + "' is made of nothing",
             "write axis = \"line\" or \"hollow\", or remove it");
@@ -149,7 +149,7 @@ void read_walls(SceneReading& reading, const toml::table& root, Scene& scene) {
     if (!wall.name.empty() && !names.insert(wall.name).second)
       t.error("name", "another wall is named '" + wall.name + "'", "give every wall a name of its own");
     wall.profile = read_profile(t, slot);
-    wall.material = read_material(t, scene, "material", grain_material).value_or(0);
+    wall.material = read_wall_material(t, scene, "material", grain_material).value_or(0);
     wall.spin = t.number("spin", Quantity::any("a spin about the axis in rad/s")).value_or(0);
     if (slot && wall.spin != 0) t.error("spin", "a wall of a slot cannot spin", "only a wall of revolution can");
     wall.speed = t.number("speed", Quantity::any("a speed upwards in m/s")).value_or(0);

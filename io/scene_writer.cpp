@@ -93,6 +93,7 @@ void write_walls(Writer& w, const Scene& scene) {
 
 void write_contact(Writer& w, const Scene& scene) {
   for (const Material& m : scene.materials) {
+    if (is_rigid(m)) continue;
     w.table("[material." + key_text(m.name) + "]");
     w.line("density", number(m.density));
     w.line("young", number(m.young));

@@ -79,7 +79,7 @@ inline Impact on_plate(const Scene& scene, double radius, Vec3 v, Vec3 w, double
 /// the grains.
 inline Scene with_rigid_plate(Scene s) {
   const Interaction contact = s.interactions(0, 0);
-  s.materials.push_back({"rigid", 1, 1e30, 0.3});
+  s.materials.push_back(rigid_material());
   s.interactions = PairTable<Interaction>(2);
   for (int b = 0; b < 2; ++b)
     for (int a = 0; a <= b; ++a) s.interactions(b, a) = contact;
