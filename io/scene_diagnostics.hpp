@@ -21,6 +21,7 @@ public:
   /// Notes an error: `what` is wrong, `remedy` says what to do (may be empty).
   void error(Place place, std::string what, std::string remedy = "");
   bool clean() const { return notes_.empty(); }
+  std::size_t count() const { return notes_.size(); }
   /// All errors in order of place, each as file:line:col: error: what, the source line, a caret and the remedy.
   std::string report() const;
   /// Throws SceneError with the report unless clean().

@@ -24,6 +24,13 @@ std::string quoted(const std::string& word) {
   return text + "\"";
 }
 
+/// Is it a number that no double can hold?
+bool too_large(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc::result_out_of_range && end == text.data() + text.size();
+}
+
 /// The override as a document whose source path is its number (see place_of). A value that is no TOML value and
 /// does not look like one is a bare word.
 std::optional<toml::table> read_override(const std::string& text, int origin, Diagnostics& diagnostics) {
@@ -39,6 +46,10 @@ std::optional<toml::table> read_override(const std::string& text, int origin, Di
     (void)toml::parse(key + " = 0");
   } catch (const toml::parse_error&) {
     diagnostics.error(place, "'" + key + "' is not a key", how_to_write);
+    return {};
+  }
+  if (too_large(value)) {
+    diagnostics.error(place, "no double can hold " + value, "numbers from 5e-324 to 1.7e308 can be told apart");
     return {};
   }
   const bool bare = !value.empty() && std::string("[{\"'").find(value.front()) == std::string::npos;

@@ -35,7 +35,9 @@ Scene read_tree(SceneReading& reading, const toml::table& root) {
   refuse_unknown_sections(reading, root);
   read_materials(reading, root, scene);
   TableReader particles = open_table(reading, root, "particles");
+  const std::size_t told = reading.diagnostics.count();
   read_grain_sizes(particles, scene);
+  reading.size_told = reading.diagnostics.count() > told;
   read_domain(reading, root, scene);
   read_grain_source(particles, scene);
   particles.finish();
@@ -68,7 +70,7 @@ const toml::array* open_tables(SceneReading& reading, const toml::table& root, c
 
 Scene parse_scene(const std::string& text, const std::string& file_name, const std::vector<std::string>& overrides,
                   std::string base_folder) {
-  SceneReading reading{Diagnostics(file_name, text, overrides), {}, 0, std::move(base_folder)};
+  SceneReading reading{Diagnostics(file_name, text, overrides), {}, 0, false, std::move(base_folder)};
   toml::table root;
   try {
     root = toml::parse(text, file_name);

@@ -111,6 +111,7 @@ std::optional<double> TableReader::length_in(const toml::node& node, const std::
     return {};
   }
   if (!(reading_.mean_diameter > 0)) {
+    if (std::exchange(reading_.size_told, true)) return {};
     reading_.diagnostics.error(at, "'" + name + "' is given in diameters, but the diameter is not known",
                                "give [particles] a diameter or a file of grains that can be read, or write metres");
     return {};

@@ -21,6 +21,7 @@ struct SceneReading {
   Diagnostics diagnostics;
   std::map<std::string, Place> places;
   double mean_diameter = 0;
+  bool size_told = false;   // that the diameter is not known was said: lengths in diameters need not say it again
   std::string base_folder;  // where relative paths of the file belong
 
   /// Place of a value, or of the nearest table around it that was written down.

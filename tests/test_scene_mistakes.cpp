@@ -96,6 +96,8 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"particles.count=96000"}, "use at most count = 72000, or a region 0.2667 m high");
   refused({"wall.shell.material=rigid"}, "add [contact.grain-rigid] with sliding");
   refused({"particles.material=rigid"}, "only walls can be rigid");
+  refused({"particles.diameter=-0.005"}, "'diameter' must be above 0, not -0.005");  // and no length in d says more
+  refused({"material.grain.young=1e400"}, "no double can hold 1e400");
   refused({"material.rigid.density=1", "material.rigid.young=1", "material.rigid.poisson=0"},
           "'rigid' is the name of a wall without any compliance and cannot be described");
   refused({"time.step=4e-5"}, "% of the Rayleigh time");
