@@ -127,7 +127,7 @@ void read_domain(SceneReading& reading, const toml::table& root, Scene& scene) {
     TableReader outlet(reading, table, "domain.outlet", "'outlet'");
     const std::string example = "write outlet = { z = -0.05 }: the height below which a grain counts as discharged";
     if (!outlet.has("z")) outlet.missing("z", example);
-    domain.outlet_height = outlet.length("z", Quantity::any(example));
+    domain.outlet_height = outlet.length("z", Quantity::any(example)).value_or(0);  // a wrong one was told
     outlet.finish();
   }
   t.finish();

@@ -56,8 +56,16 @@ fuzz_all() {
   return $failed
 }
 
+# rows_of NAME: the cases that the table NAME of tests/README.md has.
+rows_of() {
+  awk -F '|' -v name="$1" '$0 == "<!-- end of " name " -->" { inside = 0 } inside && ++n > 2 { print $2 }
+    $0 ~ "^<!-- " name ":" { inside = 1 }' tests/README.md | sort -u
+}
+
 # write_table NAME FILE: puts the rows of the table NAME in FILE between its markers in tests/README.md, in order.
+# Says which cases the table had and has no more; returns 1 then.
 write_table() {
+  rows_of "$1" >"$2.before"
   LC_ALL=C sort -t "$(printf '\t')" -k 2 "$2" | awk -F '\t' -v name="$1" '
     FNR == NR { if ($1 == name) rows = rows $3 "\n"; next }
     $0 == "<!-- end of " name " -->" { skip = 0 }
@@ -66,6 +74,8 @@ write_table() {
     head && --head == 0 { printf "%s", rows; skip = 1 }
   ' - tests/README.md >"$2.md"
   cat "$2.md" >tests/README.md
+  rows_of "$1" | comm -23 "$2.before" - >"$2.gone"
+  [ ! -s "$2.gone" ] || { sed "s/^/error: the table of $1 has lost the case/" "$2.gone" >&2; return 1; }
 }
 
 # validate FOLDER: runs the tests that write rows, and writes the tables.
@@ -74,7 +84,7 @@ validate() {
   rows=$(mktemp -d)
   export WEDGE_LADDER="$rows/rows"
   ctest --test-dir "$1" --output-on-failure -j 2 -L 'unit|validate|nightly' -E kill || outcome=$?
-  for table in rungs orders hard; do write_table $table "$WEDGE_LADDER"; done
+  for table in rungs orders hard; do write_table $table "$WEDGE_LADDER" || outcome=1; done
   rm -r "$rows"
   echo "The tables of tests/README.md are those of this run."
   return $outcome

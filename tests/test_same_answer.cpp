@@ -25,13 +25,16 @@ const std::vector<std::string> crowd = {"wall.shell.profile=[[0.06, 0], [0.06, 0
                                         "output.frames=0.009",
                                         "output.series=0.001"};
 
-const std::vector<std::vector<std::string>> options = {{},
-                                                       {"contact.rolling_velocity=relative"},
-                                                       {"contact.rolling=elastic_plastic_spring"},
-                                                       {"domain.axis=images"},
-                                                       {"domain.axis=pin"},
-                                                       {"domain.axis=line"},
-                                                       {"domain.axis=hollow", "domain.inner_radius=0.006"}};
+const std::vector<std::vector<std::string>> options = {
+    {},
+    {"contact.rolling_velocity=relative"},
+    {"contact.rolling=elastic_plastic_spring"},
+    {"domain.axis=images"},
+    {"domain.axis=pin"},
+    {"domain.axis=line"},
+    {"domain.axis=hollow", "domain.inner_radius=0.006"},
+    {"contact.law=hertz_mindlin", "contact.coulomb=total", "wall.shell.spin=5", "wall.floor.speed=0.2"},
+    {"contact.law=linear", "contact.contact_time=1e-3", "contact.tension=none"}};
 
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());

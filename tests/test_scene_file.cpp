@@ -146,7 +146,7 @@ TEST_CASE("size distributions, slots and files of grains", "[scene]") {
   CHECK(std::get<StateFile>(from_file.particles.grains).diameter == 0.002);
   check_round_trip(from_file);
   const std::string unknown_size = complaint(replaced(state, "diameter = 0.002\n", ""));
-  CHECK(contains(unknown_size, "s.toml:6:13: error: 'r' is given in diameters, but the diameter is not known"));
+  CHECK(contains(unknown_size, "s.toml:3:16: error: 'z' is given in diameters, but the diameter is not known"));
 }
 
 TEST_CASE("options of the axis and of the contact are read and written", "[scene]") {
