@@ -3,11 +3,12 @@
 //
 //   bench_step --case column --particles N --threads T --rolling on|off --steps S [--angle DEGREES] [--settle
 //   SECONDS]
-//              [--budget on|off] [--start FILE]
+//              [--budget on|off] [--start FILE] [--write FILE]
 //
 // Case `column`: hopper grains (PHYSICS section 4) in a flat-bottomed cylinder of diameter 0.2 m, settled from a
-// random fill, or from the places in FILE (lines "x y z" [m], then settled as long), then timed. The last line is
-// `particle_steps_per_second <number>`: the median of five windows of S steps.
+// random fill, or from the places in the --start file (lines "x y z" [m], then settled as long), then timed; the
+// --write file gets the settled places. The last line is `particle_steps_per_second <number>`: the median of five
+// windows of S steps.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "core/parallel.hpp"
@@ -61,6 +63,7 @@ Scene column_scene(long particles, bool rolling, int order) {
 void read_places(State& state, const Scene& scene, const std::string& path) {
   std::ifstream file(path);
   std::vector<Vec3> places;
+  if (!file) throw std::runtime_error("cannot read " + path);
   for (Vec3 x; file >> x.x >> x.y >> x.z;) places.push_back(x);
   Particles& p = state.particles;
   p.resize(static_cast<Index>(places.size()));
@@ -75,12 +78,21 @@ void read_places(State& state, const Scene& scene, const std::string& path) {
   complete_grains(p, scene.materials, 0.005);
 }
 
-}  // namespace
+void write_places(const State& state, const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (!file) throw std::runtime_error("cannot write " + path);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(state.particles.count()); ++i) {
+    const Vec3 x = state.particles.position.get(i);
+    std::fprintf(file, "%.12g %.12g %.12g\n", x.x, x.y, x.z);
+  }
+  if (std::fclose(file) != 0) throw std::runtime_error("cannot write " + path);
+}
 
-int main(int argc, char** argv) {
-  std::map<std::string, std::string> option{
-      {"case", "column"}, {"particles", "32000"}, {"threads", "1"},  {"precision", "double"}, {"rolling", "on"},
-      {"steps", "500"},   {"angle", "360"},       {"settle", "0.7"}, {"budget", "on"},        {"start", ""}};
+int bench(int argc, char** argv) {
+  std::map<std::string, std::string> option{{"case", "column"},      {"particles", "32000"}, {"threads", "1"},
+                                            {"precision", "double"}, {"rolling", "on"},      {"steps", "500"},
+                                            {"angle", "360"},        {"settle", "0.7"},      {"budget", "on"},
+                                            {"start", ""},           {"write", ""}};
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strncmp(argv[i], "--", 2) != 0 || !option.count(argv[i] + 2)) {
       std::fprintf(stderr, "bench_step: unknown option %s\n", argv[i]);
@@ -113,6 +125,8 @@ int main(int argc, char** argv) {
   const double settle_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - settle_begin).count();
 
+  if (!option["write"].empty()) write_places(state, option["write"]);
+
   TimeStep step(scene, state);
   const double n = state.particles.count();
   const auto builds = state.list_builds;
@@ -144,4 +158,16 @@ int main(int argc, char** argv) {
   std::printf("peak memory per grain %.0f B\n", 1024.0 * static_cast<double>(usage.ru_maxrss) / n);
   std::printf("slowest %.0f fastest %.0f\n", rates.front(), rates.back());
   std::printf("particle_steps_per_second %.0f\n", rates[2]);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return bench(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_step: %s\n", error.what());
+    return 1;
+  }
 }
