@@ -1,5 +1,6 @@
-// test_axis.cpp: the axis rules pin, line and clamp on one or two grains. (images, hollow: test_sector.cpp)
+// test_axis.cpp: the axis rules pin, line, hollow and clamp on one or two grains. (images: test_sector.cpp)
 #include "tests/catch.hpp"
+#include "tests/impact.hpp"
 #include "tests/laboratory.hpp"
 
 using namespace wedge;
@@ -68,6 +69,46 @@ TEST_CASE("pin: a grain on the axis meets all copies of its neighbour, as in the
   }
 }
 
+TEST_CASE("pin: a grain that arrives at the axis is stopped there and meets all copies from then on", "[axis]") {
+  // It lands on the axis in its first step, far within the margin of the list, and its neighbour comes later.
+  for (const int n : {2, 3, 4, 5}) {
+    for (const bool swap : {false, true}) {
+      CAPTURE(n, swap);
+      Scene sector = sector_of(n, AxisRule::pin, 0.6, 0.2);
+      sector.run.skin = 0.2 * d;
+      Scene full = sector;
+      full.domain.kind = DomainKind::full;
+      full.domain.order = 1;
+      const double phi = 0.4 * 2 * pi / n, dt = 2e-6;
+      const Vec3 outward{std::cos(phi), std::sin(phi), 0}, inward = -0.5 * outward + Vec3{0, 0, -0.1}, w{3, -8, 20};
+      const Vec3 place = (2 * R + 0.07 * R) * outward + Vec3{0, 0, 0.1 * R};
+      std::vector<Grain> grains{{R, 0.06 * R * outward, (-0.06 * R / dt) * outward + Vec3{0, 0, 0.2}, {0, 0, 7}},
+                                {R, place, inward, w}};
+      const Symmetry symmetry = Symmetry::rotation(n);
+      std::vector<Grain> all{{R, {0, 0, 0}, {0, 0, 0.2}, {0, 0, 7}}};
+      for (int k = 0; k < n; ++k)
+        all.push_back(
+            {R, symmetry.turn_point(place, k), symmetry.turn_vector(inward, k), symmetry.turn_vector(w, k)});
+      const int on_axis = swap ? 1 : 0, beside = 1 - on_axis;
+      if (swap) std::swap(grains[0], grains[1]);
+      Experiment slice(sector, grains, dt), whole(full, all, dt);
+      slice.run(1);
+      whole.run(1);
+      CHECK(norm(slice.x(on_axis) - Vec3{0, 0, 0.2 * dt}) < 1e-12 * d);
+      CHECK(norm(slice.v(on_axis) - Vec3{0, 0, 0.2}) == 0);
+      CHECK(slice.touching() == 0);
+      slice.run(249);
+      whole.run(249);
+      CHECK(slice.touching() == n);
+      CHECK(norm(slice.x(on_axis) - whole.x(0)) < 1e-12 * d);
+      CHECK(norm(slice.v(on_axis) - whole.v(0)) < 1e-11);
+      CHECK(norm(slice.w(on_axis) - whole.w(0)) < 1e-8);
+      const int turns = slice.state.particles.turns[slice.slot(beside)];
+      CHECK(norm(symmetry.turn_point(slice.x(beside), turns) - whole.x(1)) < 1e-12 * d);
+    }
+  }
+}
+
 TEST_CASE("line: a grain rebounds from the axis as from a rigid plane of its own stiffness", "[axis]") {
   const Scene s = sector_of(8, AxisRule::line);
   const double speed = 0.1, phi = 0.3 * 2 * pi / 8;
@@ -98,4 +139,51 @@ TEST_CASE("line: its friction turns a grain that slides along the axis", "[axis]
   // Gross sliding: the tangential impulse is mu times the (elastic) normal one.
   CHECK(e.v(0).z == Approx(vt - 0.3 * (vn + rebound)).epsilon(5e-3));
   CHECK(norm(e.w(0)) == Approx(2.5 * 0.3 * (vn + rebound) / R).epsilon(3e-2));
+}
+
+TEST_CASE("hollow: a grain rebounds from the inner cylinder as from a plane of its own stiffness", "[axis]") {
+  Scene s = sector_of(8, AxisRule::hollow);
+  s.domain.inner_radius = 4 * d;
+  const double speed = 0.1, phi = 0.3 * 2 * pi / 8, start = s.domain.inner_radius + R + 0.02 * d;
+  const Vec3 outward{std::cos(phi), std::sin(phi), 0};
+  for (const DomainKind kind : {DomainKind::sector, DomainKind::full}) {
+    s.domain.kind = kind;
+    s.domain.order = kind == DomainKind::full ? 1 : 8;
+    Experiment e(s, {{R, start * outward, -speed * outward, {}}}, 1e-6);
+    double nearest = 1;
+    const bool back = e.run_until(
+        [&] {
+          nearest = std::min(nearest, norm(e.x(0)));
+          return norm(e.x(0)) > start;
+        },
+        100000);
+    REQUIRE(back);
+    const HertzImpact hertz{1e7 / (2 * (1 - 0.09)), R, e.mass(0), speed};
+    CHECK(nearest == Approx(s.domain.inner_radius + R - hertz.overlap()).margin(1e-4 * hertz.overlap()));
+    CHECK(norm(e.v(0) - speed * outward) < 1e-4 * speed);
+    CHECK(std::fabs(e.residual()) < 1e-4 * e.begin.kinetic);
+  }
+}
+
+TEST_CASE("hollow: gross sliding on the inner cylinder has the impulse of a rigid body", "[axis]") {
+  // As on a plate (test_impact.cpp): v_t' = v_t - mu (1 + e) v_n and |w| = (5/2) mu (1 + e) v_n / R, obliquely to
+  // the axis; the cylinder is so wide that the grain does not come round it within the impact.
+  for (const double restitution : {1.0, 0.5}) {
+    CAPTURE(restitution);
+    Scene s = sector_of(8, AxisRule::hollow);
+    s.materials[0].young = 1e9;
+    s.domain.inner_radius = 1000 * d;
+    s.interactions(0, 0).restitution = restitution;
+    s.interactions(0, 0).sliding = 0.1;
+    const double phi = 0.3 * 2 * pi / 8, vn = 0.7, vt = 0.8;
+    const Vec3 outward{std::cos(phi), std::sin(phi), 0}, along = 0.6 * cross({0, 0, 1}, outward) + Vec3{0, 0, 0.8};
+    const double start = s.domain.inner_radius + R * (1 + 1e-9);
+    Experiment e(s, {{R, start * outward, -vn * outward + vt * along, {}}}, 5e-8);
+    e.run(2);
+    REQUIRE(e.touching_walls() == 1);
+    REQUIRE(e.run_until([&] { return e.touching_walls() == 0; }, 100000));
+    const double impulse = 0.1 * (1 + restitution) * vn;
+    CHECK(norm(e.v(0) - (restitution * vn * outward + (vt - impulse) * along)) < 1e-3 * vn);
+    CHECK(norm(e.w(0) - (2.5 * impulse / R) * cross(outward, along)) < 1.2e-2 * norm(e.w(0)));
+  }
 }

@@ -141,3 +141,121 @@ TEST_CASE("coulomb = total: elastic and viscous force together stay within mu |f
   CHECK(norm(TotalCoulomb<MindlinDeresiewicz>::respond(c, in).tangential -
              MindlinDeresiewicz::respond(c, in).tangential) == 0);
 }
+
+namespace {
+
+// Two grains of radii R and 1.4 R, pressed together by an overlap that does not change: nothing holds them, but
+// they spin so slowly (or are so heavy) that the spins have their answer long before the grains have moved.
+constexpr double dn = 2.5e-5, radius_ratio = 1.4;  // m, -
+const Vec3 normal = (1 / 7.0) * Vec3{2, 3, 6};
+
+struct Pressed {
+  double load, inertia[2];  // N, kg m2
+  std::vector<Grain> grains;
+
+  Pressed(const Scene& s, Vec3 wi, Vec3 wj, Vec3 vj = {}) {
+    load = hertz_stiffness_factor(s) * std::sqrt(radius_ratio / (1 + radius_ratio)) * std::pow(dn, 1.5);
+    for (int k = 0; k < 2; ++k) {
+      const double radius = k == 0 ? R : radius_ratio * R;
+      inertia[k] = 0.4 * sphere_mass(radius, s.materials[0].density) * radius * radius;
+    }
+    grains = {{R, {0, 0, 0}, {}, wi}, {radius_ratio * R, ((1 + radius_ratio) * R - dn) * normal, vj, wj}};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("limiter: each of two grains that roll on each other loses spin at mu_r |f_n| / I, until it is zero",
+          "[couples]") {
+  const Scene s = hopper_material(0);
+  const double mu_r = s.interactions(0, 0).rolling, li = R - 0.5 * dn, lj = radius_ratio * R - 0.5 * dn;
+  const Vec3 wi = 1e-3 / std::sqrt(13.0) * Vec3{3, -2, 0}, wj = (-li / lj) * wi;  // perpendicular to the normal
+  const Pressed pair(s, wi, wj);
+  const double rate[] = {mu_r * pair.load / pair.inertia[0], mu_r * pair.load / pair.inertia[1]};
+  const double stop[] = {norm(wi) / rate[0], norm(wj) / rate[1]}, dt = stop[0] / 1000;
+  Experiment e(s, pair.grains, dt);
+  e.run(500);
+  CHECK(norm(e.w(0) - 0.5 * wi) < 1e-5 * norm(wi));
+  CHECK(norm(e.w(1) - (1 - 500 * dt / stop[1]) * wj) < 1e-5 * norm(wj));
+  e.run(490);
+  CHECK(norm(e.w(0)) > 0);
+  e.run(20);
+  CHECK(norm(e.w(0)) == 0);
+  e.run(static_cast<int>(0.99 * stop[1] / dt) - 1010);
+  CHECK(norm(e.w(0)) == 0);
+  CHECK(norm(e.w(1)) > 0);
+  e.run(static_cast<int>(0.02 * stop[1] / dt));
+  CHECK(norm(e.w(1)) == 0);
+  const double spun = 0.5 * (pair.inertia[0] * dot(wi, wi) + pair.inertia[1] * dot(wj, wj));
+  CHECK(e.state.energy.rolling == Approx(spun).epsilon(1e-4));
+}
+
+TEST_CASE("relative: two grains end with the spin they have in common, braked by mu_r |f_n|", "[couples]") {
+  Scene s = hopper_material(0);
+  s.contact.rolling_velocity = RollingVelocity::relative;
+  const double mu_r = s.interactions(0, 0).rolling;
+  const Vec3 wi{1e-3, -2e-3, 0.5e-3}, wj{-0.3e-3, 0.4e-3, 2e-3}, along = (1 / norm(wi - wj)) * (wi - wj);
+  const Pressed pair(s, wi, wj);
+  const double moment = mu_r * pair.load, Ii = pair.inertia[0], Ij = pair.inertia[1];
+  const double stop = norm(wi - wj) / (moment / Ii + moment / Ij), dt = stop / 1000;
+  Experiment e(s, pair.grains, dt);
+  REQUIRE(e.state.contacts.rows() == 1);
+  CHECK(norm(e.state.contacts.couple.get(0) + moment * along) < 1e-9 * moment);
+  e.run(500);
+  const double size = norm(wi - wj);
+  CHECK(norm(e.w(0) - (wi - (moment / Ii * 500 * dt) * along)) < 1e-5 * size);
+  CHECK(norm(e.w(1) - (wj + (moment / Ij * 500 * dt) * along)) < 1e-5 * size);
+  e.run(1000);
+  const Vec3 common = (1 / (Ii + Ij)) * (Ii * wi + Ij * wj);
+  CHECK(norm(e.w(0) - common) < 1e-5 * size);
+  CHECK(norm(e.w(1) - common) < 1e-5 * size);
+  CHECK(e.state.energy.rolling == Approx(0.5 * Ii * Ij / (Ii + Ij) * size * size).epsilon(2e-3));
+}
+
+TEST_CASE("rolling spring: the couple of two grains is k_r times the angle they rolled, at most mu_r |f_n|",
+          "[couples]") {
+  // k_r = 2.25 k_n mu_r^2, so the limit is reached after dn / (2.25 mu_r), here 0.11 rad; spins about the normal
+  // do not count.
+  Scene s = hopper_material(0);
+  s.materials[0].density = 1e15;
+  s.interactions(0, 0).sliding = 0;  // no other torque
+  s.contact.rolling = RollingModel::elastic_plastic_spring;
+  s.contact.rolling_damping = 0;
+  const double mu_r = s.interactions(0, 0).rolling, rate = 10, dt = 1e-5;  // m, rad/s, s
+  const Vec3 along = 1 / std::sqrt(13.0) * Vec3{3, -2, 0}, twist = 2.0 * normal;
+  const Pressed pair(s, (0.3 * rate) * along + twist, (-0.7 * rate) * along - twist);
+  const double limit = mu_r * pair.load, stiffness = 2.25 * (pair.load / dn) * mu_r * mu_r;
+  Experiment e(s, pair.grains, dt);
+  const auto check = [&](double moment) {
+    CHECK(norm(e.state.contacts.couple.get(0) + moment * along) < 2e-3 * limit);
+    CHECK(norm(e.state.particles.torque.get(e.slot(0)) + moment * along) < 2e-3 * limit);
+    CHECK(norm(e.state.particles.torque.get(e.slot(1)) - moment * along) < 2e-3 * limit);
+  };
+  e.run(600);
+  check(stiffness * 600 * dt * rate);
+  e.run(2400);
+  check(limit);
+  CHECK(e.state.energy.rolling > 0);
+  for (const int id : {0, 1}) e.state.particles.angular_velocity.set(e.slot(id), -e.w(id));
+  e.run(500);
+  check(limit - stiffness * 500 * dt * rate);
+  e.run(3000);
+  check(-limit);
+}
+
+TEST_CASE("relative, rolling spring: two grains that turn as one rigid body feel no couple", "[couples]") {
+  for (const bool spring : {false, true}) {
+    Scene s = hopper_material(0);
+    s.interactions(0, 0).sliding = 0;  // no other torque
+    if (spring) s.contact.rolling = RollingModel::elastic_plastic_spring;
+    s.contact.rolling_velocity = RollingVelocity::relative;
+    const Vec3 w{3, -20, 7};
+    Experiment e(s, Pressed(s, w, w, cross(w, ((1 + radius_ratio) * R - dn) * normal)).grains, 1e-8);
+    e.run(200);
+    REQUIRE(e.touching() == 1);
+    CHECK(norm(e.state.contacts.couple.get(0)) == 0);
+    CHECK(norm(e.w(0) - w) == 0);
+    CHECK(norm(e.w(1) - w) == 0);
+    CHECK(e.state.energy.rolling == 0);
+  }
+}
