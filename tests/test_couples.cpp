@@ -37,6 +37,20 @@ TEST_CASE("relative: the couple is mu_r |f_n|, or half of what stops the pair wi
   CHECK(norm(relative_couple({{}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0}, 1e-5)) == 0);
 }
 
+TEST_CASE(
+    "rolling spring: it grows with the spin across the normal alone, is damped below its limit, and stays there",
+    "[couples]") {
+  // k_r = 2.25 k_n mu_r^2 = 2.25e-4 N m, critical damping 2 sqrt(I k_r) = 3e-6 N m s, limit mu_r |f_n| = 2e-4 N m
+  const RollingInput in{{3, 0, 4}, {0, 0, 1}, 2.0, 1e4, 1e-4, 1e-8, 0.3};
+  const double dt = 1e-6, half_step = 0.5 * dt * 2.25e-4 * 3;
+  const RollingSpring below = rolling_spring(in, {5e-5, -1e-5, 0}, dt);
+  CHECK(norm(below.couple - Vec3{5e-5 - half_step - 0.3 * 3e-6 * 3, -1e-5, 0}) < 1e-18);
+  CHECK(norm(below.moment - Vec3{5e-5 - 2 * half_step, -1e-5, 0}) < 1e-18);
+  const RollingSpring beyond = rolling_spring(in, {half_step - 1.2e-4 * 3, 1.6e-4 * 3, 0}, dt);
+  CHECK(norm(beyond.couple - Vec3{-1.2e-4, 1.6e-4, 0}) < 1e-17);
+  CHECK(norm(beyond.moment - Vec3{-1.2e-4 - half_step, 1.6e-4, 0}) < 1e-17);
+}
+
 TEST_CASE("relative: a sphere that rolls on a plate stops as with the limiter", "[couples]") {
   Scene s = hopper_material();
   s.contact.rolling_velocity = RollingVelocity::relative;
