@@ -1,6 +1,7 @@
 // scene_overrides.cpp: reading of an override as a small TOML document and grafting of its one value onto the tree.
 #include "io/scene_overrides.hpp"
 
+#include <charconv>
 #include <optional>
 #include <utility>
 
