@@ -1,7 +1,11 @@
 // test_hard_walls.cpp: hard cases of walls: grains exactly on the axis, a face, an edge, two edges; narrow places;
 // moving walls; grains that leave while they touch. The scenes are in hard_cases/.
+#include <fstream>
+#include <set>
+
 #include "tests/laboratory.hpp"
 #include "tests/ladder.hpp"
+#include "tests/scratch_folder.hpp"
 #include "tests/trial.hpp"
 
 using namespace wedge;
