@@ -51,6 +51,7 @@ std::vector<std::pair<std::string, std::string>> RunMemory::to_text() const {
   std::string times;
   for (const double t : frame_times) times += number_text(t) + " ";
   text.emplace_back("frame_times", times);
+  text.emplace_back("budget_doubted", budget_doubted ? "1" : "0");
   text.emplace_back("scene_name", scene_name);
   return text;
 }
@@ -71,8 +72,10 @@ RunMemory RunMemory::from_text(const std::vector<std::pair<std::string, std::str
   });
   std::istringstream times(find("frame_times"));
   for (std::string t; times >> t;) m.frame_times.push_back(number(t, "frame_times", path));
-  for (const auto& [name, value] : text)
-    if (name == "scene_name") m.scene_name = value;  // a name for titles may be missing
+  for (const auto& [name, value] : text) {  // these two may be missing
+    if (name == "scene_name") m.scene_name = value;
+    if (name == "budget_doubted") m.budget_doubted = value == "1";
+  }
   return m;
 }
 

@@ -26,6 +26,7 @@ struct RunMemory {
   Energies begin;                    // energies at the start
   double wall_seconds = 0;           // spent in earlier sessions and this one
   double stage_wall_seconds = 0;     // of them in this stage
+  bool budget_doubted = false;       // it was said that the energy budget does not close
   std::string scene_name;            // for titles
 
   /// As key and value pairs that read back to the bit, for a checkpoint.

@@ -20,11 +20,18 @@
 namespace wedge {
 namespace {
 
-constexpr std::int64_t look_every = 20;  // steps between looks at the wall clock, at signals and at rest
-constexpr double report_every = 1;       // s of wall time between rewrites of progress.json
-constexpr double least_to_judge = 1;     // s of wall time from which on a rate or a forecast is told
+constexpr std::int64_t look_every = 20;    // steps between looks at the wall clock, at signals and at rest
+constexpr std::int64_t judge_every = 500;  // steps between looks at the energy budget
+constexpr double report_every = 1;         // s of wall time between rewrites of progress.json
+constexpr double least_to_judge = 1;       // s of wall time from which on a rate or a forecast is told
 
 constexpr double deepest_insertion = 0.1;  // radii: how far a wall that a stage adds may reach into a grain
+
+// The residual is compared with the energy lost, or with a part of the energy put in and of what lifts every grain
+// by its diameter while less than that is lost: a bed that rests from the start has nothing else to compare with.
+constexpr double trifling_loss = 0.1;
+constexpr double doubtful_residual = 0.1;  // of the larger of the two: a warning
+constexpr double garbage_residual = 0.5;   // the same: the run stops
 
 /// Throws PhysicsError when wall w stands inside a grain.
 void refuse_wall_in_grain(const State& state, int w) {
@@ -55,6 +62,12 @@ Index grains_above(const State& state) {
   for (Index i = 0; i < state.particles.count(); ++i)
     above += state.particles.position.z[static_cast<std::size_t>(i)] > top;
   return above;
+}
+
+double total_mass(const State& state) {
+  double mass = 0;
+  for (Index i = 0; i < state.particles.count(); ++i) mass += state.particles.mass[static_cast<std::size_t>(i)];
+  return mass;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point t) {
@@ -172,6 +185,7 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
     step_->advance(*state_, dt_);
     if (!state_->departures.empty()) recorder_->record_departures(*state_);
     recorder_->record_due(*state_, *step_, memory_);
+    if (state_->step % judge_every == 0) judge_budget();
     if (limits.until && state_->time >= *limits.until - 0.5 * dt_) {
       between_steps();
       return RunEnd::until;
@@ -206,7 +220,7 @@ void Simulation::begin_stage() {
 
 void Simulation::end_stage() {
   const std::string name = stage().name;
-  doubt_step();
+  judge_budget();
   recorder_->record_series(*state_, *step_, memory_);
   recorder_->record_frame(*state_, memory_);
   results_.push_back(measure_bed(*state_, *scene_, name, discharge_rate(), memory_.stage_wall_seconds));
@@ -247,9 +261,7 @@ bool Simulation::came_to_rest() const {
 bool Simulation::at_rest() {
   if (state_->particles.count() == 0) return true;
   if (state_->step % look_every != 0) return false;
-  double mass = 0;
-  for (Index i = 0; i < state_->particles.count(); ++i) mass += state_->particles.mass[static_cast<std::size_t>(i)];
-  const double threshold = 0.5 * mass / state_->particles.count() * rest_.speed * rest_.speed;
+  const double threshold = 0.5 * total_mass(*state_) / state_->particles.count() * rest_.speed * rest_.speed;
   const bool quiet = mean_kinetic_energy(*state_) < threshold;
   if (!quiet || memory_.quiet_since < 0 || memory_.quiet_out != state_->taken_out) {
     memory_.quiet_since = quiet ? state_->time : -1;
@@ -275,26 +287,28 @@ void Simulation::between_steps() {
   memory_.wall_seconds += passed;
   memory_.stage_wall_seconds += passed;
   if (session_seconds_ - last_checkpoint_ >= scene_->output.checkpoint_every) save("checkpoint");
-  if (session_seconds_ - last_report_ >= report_every) {
-    report("running");
-    doubt_step();
-  }
+  if (session_seconds_ - last_report_ >= report_every) report("running");
 }
 
-/// Says once when the energy budget does not close: the step is then too long for what happens in it.
-void Simulation::doubt_step() {
-  if (doubted_step_ || !scene_->output.energy_budget) return;
-  const EnergyLedger& l = state_->energy;
-  const double lost = l.normal_damping + l.tangential_damping + l.sliding + l.rolling + l.axis;
-  const Energies now = step_->energies(*state_);
-  const double residual = step_->residual(*state_, memory_.begin, now);
-  if (!(std::abs(residual) > 0.1 * lost) || lost < 1e-3 * std::abs(memory_.begin.total() - now.total())) return;
-  doubted_step_ = true;
+/// Says once when the energy budget does not close, and throws PhysicsError when it is garbage. Decided by the
+/// state at fixed steps, so that it does not depend on the machine, the threads or restarts.
+void Simulation::judge_budget() {
+  if (!scene_->output.energy_budget) return;
+  const EnergyBudget budget = step_->budget(*state_, memory_.begin);
+  const double lifting = total_mass(*state_) * scene_->domain.gravity.norm() * state_->mean_diameter;
+  const double scale = std::max(budget.lost, trifling_loss * (budget.put_in + lifting));
+  if (!(std::abs(budget.residual) > doubtful_residual * scale)) return;
   std::ostringstream text;
-  text << "warning: at " << state_->time << " s " << residual << " J of " << lost
-       << " J lost are unexplained (residual in series/energies.csv): the time step of " << dt_ << " s is too long";
-  log(text.str());
-  line_.note(text.str());
+  text << "at " << state_->time << " s " << budget.residual << " J are unexplained, " << budget.lost << " J of "
+       << budget.put_in << " J put in were lost (residual in series/energies.csv)";
+  if (std::abs(budget.residual) > garbage_residual * scale)
+    throw PhysicsError("the energy budget is broken in step " + std::to_string(state_->step) + ": " + text.str() +
+                       ". Likely cause: the time step of " + short_number(dt_) +
+                       " s is too long (see `wedge check`), or a stage put a wall into grains.");
+  if (memory_.budget_doubted) return;
+  memory_.budget_doubted = true;
+  log("warning: " + text.str() + ": the time step of " + short_number(dt_) + " s is too long");
+  line_.note("warning: " + text.str() + ": the time step of " + short_number(dt_) + " s is too long");
 }
 
 void Simulation::save(const char* what) {

@@ -60,7 +60,7 @@ private:
   double discharge_rate() const;
   void between_steps();
   [[noreturn]] void fail(const FileError& error);
-  void doubt_step();
+  void judge_budget();
   void save(const char* what);
   void report(const char* run_state, const std::string& message = "");
   double eta() const;
@@ -76,7 +76,6 @@ private:
   std::vector<StageResult> results_;
   RestCriterion rest_;
   double dt_ = 0;
-  bool doubted_step_ = false;
   ProgressLine line_;
   std::chrono::steady_clock::time_point clock_;  // of the last look at the wall clock
   double session_seconds_ = 0, last_checkpoint_ = 0, last_report_ = -1e9;

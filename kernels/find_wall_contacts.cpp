@@ -1,5 +1,8 @@
 // find_wall_contacts.cpp: which wall features are near which grain, with the histories of the list before.
+#include <sstream>
+
 #include "core/parallel.hpp"
+#include "core/require.hpp"
 #include "kernels/neighbours.hpp"
 
 namespace wedge {
@@ -10,7 +13,22 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 struct FoundWalls {
   std::vector<Index> grain, rows_of_grain;
   std::vector<std::int32_t> feature;
+  Index deep_grain = -1;  // a grain that reaches too far into a wall, and the feature it reaches into
+  std::int32_t deep_feature = -1;
 };
+
+void report_overlap(const State& state, Index i, std::int32_t f) {
+  const Particles& p = state.particles;
+  const Vec3 x = p.position.get(at(i));
+  std::ostringstream text;
+  text << "grain " << p.id[at(i)] << " at (" << x.x << ", " << x.y << ", " << x.z << ") m overlaps the wall '"
+       << state.vessel.wall(state.vessel.carrier(f)).name << "' by "
+       << p.radius[at(i)] - state.vessel.proximity(f, x).distance << " m in step " << state.step << ": more than "
+       << wall_overlap_limit
+       << " of its radius. Likely cause: grains or walls too soft for their speed, a time step "
+       << "too long, or a start within the wall.";
+  throw PhysicsError(text.str());
+}
 
 /// Remembers the list before, indexed by the slot each grain had then.
 void set_aside(WallContactTable& c, NeighbourScratch& s, Index old_count) {
@@ -59,13 +77,21 @@ void find_wall_contacts(State& state, NeighbourScratch& scratch) {
     for (Index i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) {
       const double reach = p.radius[at(i)] + p.list_margin[at(i)] + state.wall_margin;
       const auto before = out.feature.size();
-      for (const std::int32_t f : active)
-        if (vessel.proximity(f, p.position.get(at(i))).distance < reach) out.feature.push_back(f);
+      for (const std::int32_t f : active) {
+        const WallProximity near = vessel.proximity(f, p.position.get(at(i)));
+        if (near.distance < reach) out.feature.push_back(f);
+        // On the wall itself, and on the axis line, there is no normal: the distance alone decides.
+        const bool deep = near.minimum && near.distance < (1 - wall_overlap_limit) * p.radius[at(i)];
+        if (deep && out.deep_grain < 0) out.deep_grain = i, out.deep_feature = f;
+      }
       if (out.feature.size() == before) continue;
       out.grain.push_back(i);
       out.rows_of_grain.push_back(static_cast<Index>(out.feature.size() - before));
     }
   });
+
+  for (const FoundWalls& f : found)
+    if (f.deep_grain >= 0) report_overlap(state, f.deep_grain, f.deep_feature);
 
   WallContactTable& c = state.wall_contacts;
   set_aside(c, scratch, n);

@@ -60,12 +60,17 @@ void refresh_images(State& state);
 void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules);
 
 /// Finds all wall features near each grain, histories carried over.
+/// Throws PhysicsError when a grain overlaps a wall by more than `wall_overlap_limit` of its radius.
 void find_wall_contacts(State& state, NeighbourScratch& scratch);
 
 /// Throws PhysicsError when a grain's position or velocity is not a number or it moves too far in a step.
 void check_motion(const State& state, double dt);
 
-inline constexpr double overlap_limit = 0.6;         // of the smaller radius
+// Overlaps are looked at when a list is made; until the next one a pair may come closer by its two margins, a grain
+// to a wall by its own.
+inline constexpr double overlap_limit = 0.6;  // of the smaller radius
+// Of the radius: as deep as each of two equal grains at their limit reaches beyond the plane between them.
+inline constexpr double wall_overlap_limit = 0.5 * overlap_limit;
 inline constexpr double largest_way_per_step = 0.5;  // radii
 
 }  // namespace wedge

@@ -1,6 +1,7 @@
 // time_step.cpp: the order of the passes.
 #include "kernels/time_step.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -172,6 +173,14 @@ double TimeStep::residual(const State& state, const Energies& start, const Energ
   return now.total() - start.total() - l.carried_in + l.carried_out - l.wall_work -
          history_coupling(state, start, now) + l.normal_damping + l.tangential_damping + l.sliding + l.rolling +
          l.axis;
+}
+
+EnergyBudget TimeStep::budget(const State& state, const Energies& start) const {
+  const EnergyLedger& l = state.energy;
+  const Energies now = energies(state);
+  const double given = start.potential - now.potential + l.carried_in - l.carried_out + l.wall_work;
+  return {start.total() - start.potential + std::max(given, 0.0),
+          l.normal_damping + l.tangential_damping + l.sliding + l.rolling + l.axis, residual(state, start, now)};
 }
 
 }  // namespace wedge

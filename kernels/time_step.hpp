@@ -16,6 +16,13 @@ struct Energies {
   double total() const { return kinetic + rotational + elastic_normal + elastic_tangential + potential; }
 };
 
+/// What became of the energy since the start [J].
+struct EnergyBudget {
+  double put_in = 0;    // in motion and in contacts at the start, and given since by heights and moving walls
+  double lost = 0;      // dissipated
+  double residual = 0;  // unexplained
+};
+
 class TimeStep {
 public:
   /// Chooses laws and types from the scene and from what the grains of `state` have in common. Pre:
@@ -34,6 +41,9 @@ public:
   /// `history_coupling` [J] is the change of elastic tangential energy by changing overlap.
   double history_coupling(const State& state, const Energies& start, const Energies& now) const;
   double residual(const State& state, const Energies& start, const Energies& now) const;
+  /// The same as three numbers, to judge how large the residual is. put_in is net of what leaving grains took
+  /// along.
+  EnergyBudget budget(const State& state, const Energies& start) const;
 
   Stopwatch& stopwatch() { return stopwatch_; }
 

@@ -1,7 +1,11 @@
 // test_hard_walls.cpp: hard cases of walls: grains exactly on the axis, a face, an edge, two edges; narrow places;
 // moving walls; grains that leave while they touch. The scenes are in hard_cases/.
+#include <fstream>
+#include <set>
+
 #include "tests/laboratory.hpp"
 #include "tests/ladder.hpp"
+#include "tests/scratch_folder.hpp"
 #include "tests/trial.hpp"
 
 using namespace wedge;
@@ -40,7 +44,43 @@ TEST_CASE("hard: a grain exactly on the axis, on a face, on both", "[hard]") {
       CHECK(e.touching_walls() == 2);
     }
   }
-  report("20", "grains exactly on the axis and on a face, n 2, 3, 4, 12", "stay; load = weight", "so they do");
+  report("20", "grains exactly on the axis and on a face, n 2, 3, 4, 12, clamp and pin", "stay; load = weight",
+         "so they do");
+}
+
+TEST_CASE("hard: a grain exactly on the axis where it has no place: images, line, hollow", "[hard]") {
+  for (const int n : {2, 3, 4, 12}) {
+    for (const AxisRule axis : {AxisRule::images, AxisRule::line, AxisRule::hollow}) {
+      CAPTURE(n, static_cast<int>(axis));
+      Scene s = hopper_material();
+      make_sector(s, n, axis);
+      if (axis == AxisRule::hollow) s.domain.inner_radius = 0.01;
+      add_wall(s, "floor", {{0, 0}, {0.03, 0}});
+      s.domain.gravity = {0, 0, -9.81};
+      const Vec3 on_face{0.015, 0, R + 1e-4}, on_axis{0, 0, R + 1e-4};
+      Experiment e(s, {{R, on_face, {}, {}}}, 1e-5);  // on a face, and with the inner cylinder one diameter away
+      e.run(20000);
+      CHECK(vertical_load(e) == Approx(e.mass(0) * 9.81).epsilon(1e-6));
+      CHECK(norm(e.x(0) - Vec3{0.015, 0, e.x(0).z}) < 1e-15);
+
+      const ScratchFolder scratch;  // on the axis: refused by the setup of a run, or by the first list
+      std::ofstream(scratch / "start.csv") << "id,x,y,z,vx,vy,vz,wx,wy,wz\n0,0,0," << on_axis.z << ",0,0,0,0,0,0\n";
+      s.particles.grains = StateFile{scratch / "start.csv", d, 0};
+      s.stages.resize(1);
+      s.time_step = 1e-5;
+      using Catch::Matchers::Contains;
+      if (axis == AxisRule::images) {
+        CHECK_THROWS_WITH(make_start(s), Contains("lies on the axis"));
+        CHECK_THROWS_WITH(Experiment(s, {{R, on_axis, {}, {}}}, 1e-5), Contains("grains 0 and 0"));
+      } else if (axis == AxisRule::line) {
+        CHECK_THROWS_WITH(Trial(s), Contains("grain 0") && Contains("overlaps the wall 'axis line' by 0.0025 m"));
+      } else {
+        CHECK_THROWS_WITH(make_start(s), Contains("grain 0 starts outside the vessel"));
+      }
+    }
+  }
+  report("20x", "a grain exactly on the axis, n 2, 3, 4, 12, images, line, hollow; one on a face",
+         "refused by name; the one on the face stays", "so they are");
 }
 
 TEST_CASE("hard: a grain on an edge, and in a gap on two edges at once", "[hard]") {
@@ -89,7 +129,7 @@ TEST_CASE("hard: a corner of 30 degrees and a tube one grain wide", "[hard]") {
          "load " + text("%.5f", vertical_load(e) / (e.mass(0) * 9.81)));
 }
 
-TEST_CASE("hard: a spinning shell carries a grain along, a rising floor lifts a bed", "[hard]") {
+TEST_CASE("hard: a spinning shell carries a grain along", "[hard]") {
   Scene s = hopper_material();
   add_wall(s, "shell", {{0.05, -1}, {0.05, 1}});
   s.walls[0].spin = 8;
@@ -107,40 +147,141 @@ TEST_CASE("hard: a spinning shell carries a grain along, a rising floor lifts a 
   report(
       "24", "a grain in a shell that spins at 8 rad/s, no gravity", "turns with the shell",
       "speed " + text("%.5f", norm(e.v(0)) / (8 * r)) + ", spin " + text("%.5f", e.w(0).z / 8) + " of the shell's");
-
-  Trial lift(hard_case("pot", {"wall.floor.speed=0.05"}));
-  lift.run(0.4);
-  const double height = lift.mean_height(), potential = lift.step.energies(lift.state).potential;
-  const double work = lift.state.energy.wall_work, lost = lift.dissipated();
-  lift.run(0.4);
-  lift.check_sound();
-  CHECK(lift.mean_height() - height == Approx(0.05 * 0.4).margin(0.1 * d));
-  const double gained = lift.step.energies(lift.state).potential - potential;
-  CHECK(lift.state.energy.wall_work - work == Approx(gained + lift.dissipated() - lost).epsilon(0.02));
-  CHECK(lift.unexplained() < 0.03);
-  report("25", "pot, floor rising at 0.05 m/s", "lifts the bed; work = potential energy + losses",
-         "work " + text("%.4f", (lift.state.energy.wall_work - work) / (gained + lift.dissipated() - lost)) +
-             " of it, residual " + text("%.2f", 100 * lift.unexplained()) + " %");
 }
 
-TEST_CASE("hard: a bed that falls out of its pot at once, grains leaving while they touch", "[hard]") {
-  for (const char* angle : {"domain.angle=360", "domain.angle=60"}) {
-    Trial t(hard_case("outlet", {angle}));
-    t.run(0.3);
-    CHECK(t.load() == Approx(t.weight()).epsilon(0.01));
-    t.open("floor");
-    int touching = 0;
-    while (t.state.particles.count() > 0 && t.state.time < 1.3) {
-      const auto before = t.state.taken_out;
-      t.run_steps(1);
-      if (t.state.taken_out > before) touching += t.deepest_overlap() > 0;
-      t.state.departures.clear();
+TEST_CASE("hard: a rising floor lifts a bed", "[hard]") {
+  // Friction on the shell loosens and packs the bed as it rises, a little differently for each seed (height up to
+  // 0.07 d less): only the budget is sharp. Without friction a bed at rest rises as one.
+  for (const bool friction : {true, false}) {
+    std::vector<std::string> overrides{"wall.floor.speed=0.05"};
+    if (!friction)
+      overrides.insert(overrides.end(), {"contact.grain-grain.sliding=0", "contact.grain-grain.rolling=0"});
+    Trial lift(hard_case("pot", overrides));
+    lift.run(friction ? 0.4 : 1.6);
+    const double height = lift.mean_height(), potential = lift.step.energies(lift.state).potential;
+    const double work = lift.state.energy.wall_work, lost = lift.dissipated(), residual = lift.residual();
+    lift.run(0.4);
+    lift.check_sound();
+    const double risen = (lift.mean_height() - height) / (0.05 * 0.4);
+    const double gained = lift.step.energies(lift.state).potential - potential;
+    const double given = lift.state.energy.wall_work - work, used = gained + lift.dissipated() - lost;
+    if (friction) {
+      CHECK(risen == Approx(1).margin(0.1));
+      CHECK(std::fabs(lift.residual() - residual) < 1e-3 * given);
+      CHECK(lift.dissipated() > lost);
+    } else {
+      CHECK(risen == Approx(1).margin(1e-3));
+      CHECK(given == Approx(used).epsilon(1e-3));
     }
-    CHECK(t.state.particles.count() == 0);
-    CHECK(t.state.taken_out == t.state.put_in);
-    CHECK(touching > 3);
-    CHECK(std::fabs(t.residual()) < 0.02 * (t.dissipated() + t.state.energy.carried_out));
-    report(std::string("26") + angle, std::string("outlet, ") + angle, "all leave, ledger exact, budget closed",
-           "residual " + text("%.2f", 100 * std::fabs(t.residual()) / t.dissipated()) + " % of the losses");
+    report(friction ? "25" : "25b",
+           std::string("pot, floor rising at 0.05 m/s") + (friction ? "" : ", no friction"),
+           friction ? "lifts the bed; budget closed" : "lifts the bed as one; work = potential energy + losses",
+           text("%.4f", risen) + " of the way, work " + text("%.5f", given / used) +
+               " of potential energy + losses, residual " +
+               text("%.0e", std::fabs(lift.residual() - residual) / given) + " of the work");
+  }
+}
+
+namespace {
+
+/// Ids of the grains that touch another one.
+std::set<std::int32_t> touching_grains(const State& state) {
+  std::set<std::int32_t> ids;
+  const ContactTable& c = state.contacts;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(c.rows()); ++k) {
+    if (!(c.half_overlap(k) > 0)) continue;
+    ids.insert(state.particles.id[static_cast<std::size_t>(c.first[k])]);
+    ids.insert(c.partner_id[k]);
+  }
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("hard: a bed that falls out of its pot at once, or sinks out of it, grains leaving while they touch",
+          "[hard]") {
+  for (const bool sinks : {false, true}) {
+    for (const char* angle : {"domain.angle=360", "domain.angle=60"}) {
+      CAPTURE(sinks, angle);
+      std::vector<std::string> overrides{angle};
+      if (sinks)
+        overrides.insert(overrides.end(), {"contact.grain-grain.sliding=0", "contact.grain-grain.rolling=0"});
+      Scene scene = hard_case("outlet", overrides);
+      if (sinks) {  // on a floor that carries the bed, which no shell holds back, down to the outlet
+        scene.walls[0].profile[0].y() = -0.2;
+        scene.walls[1].speed = -0.1;
+        scene.domain.outlet_height = -0.06;
+      }
+      Trial t(scene);
+      t.run(0.3);
+      if (!sinks) CHECK(t.load() == Approx(t.weight()).epsilon(0.01));
+      if (!sinks) t.open("floor");
+      int touching = 0;  // of the grains that left
+      while (t.state.particles.count() > 0 && t.state.time < 1.6) {
+        const std::set<std::int32_t> before = touching_grains(t.state);
+        t.run_steps(1);
+        for (const Departure& gone : t.state.departures) touching += before.count(gone.id) > 0;
+        t.state.departures.clear();
+      }
+      CHECK(t.state.particles.count() == 0);
+      CHECK(t.state.taken_out == t.state.put_in);
+      if (sinks) CHECK(15 * touching > t.state.put_in);
+      CHECK(touching >= 1);
+      CHECK(std::fabs(t.residual()) < 0.02 * t.dissipated());
+      report(std::string("26") + (sinks ? "b" : "") + angle,
+             std::string("outlet, ") + angle + (sinks ? ", on a sinking floor" : ""),
+             "all leave, some in touch, ledger exact, budget closed",
+             text("%.0f", touching) + " of " + text("%.0f", static_cast<double>(t.state.put_in)) +
+                 " leave in touch with another grain, residual " +
+                 text("%.2f", 100 * std::fabs(t.residual()) / t.dissipated()) + " % of the losses");
+    }
+  }
+}
+
+TEST_CASE("hard: a gap of exactly one diameter", "[hard]") {
+  int fell = 0, held = 0;
+  const auto drop = [&](const Scene& scene, Vec3 x) {
+    Experiment e(scene, {{R, x, {}, {}}}, 1e-5);
+    const bool out = e.run_until([&] { return e.state.particles.count() == 0; }, 100000);
+    CHECK(e.state.put_in == e.state.particles.count() + e.state.taken_out);
+    ++(out ? fell : held);
+    if (out) return;
+    CHECK(vertical_load(e) == Approx(e.mass(0) * 9.81).epsilon(1e-3));
+    CHECK(std::fabs(e.x(0).z) < R);
+    CHECK(norm(e.v(0)) < 1e-6);
+  };
+  const Vec3 direction{std::cos(0.3), std::sin(0.3), 0}, above{0, 0, 0.01};
+  for (const int n : {1, 6}) {
+    Scene ring = hopper_material();
+    if (n > 1) make_sector(ring, n, AxisRule::clamp);
+    ring.domain.gravity = {0, 0, -9.81};
+    ring.domain.outlet_height = -0.01;
+    add_wall(ring, "outer", {{0.02, 0}, {0.03, 0}});
+    Scene orifice = ring;
+    add_wall(ring, "inner", {{0, 0}, {0.02 - d, 0}});
+    orifice.walls[0].profile = {{R, 0}, {0.03, 0}};
+    for (const double aside : {0.0, 1e-15, 1e-9, 1e-6, 1e-4}) {
+      CAPTURE(n, aside);
+      drop(ring, (0.02 - R + aside) * direction + above);
+      drop(orifice, aside * direction + above);
+    }
+  }
+  // With the axis rule clamp a grain beside the axis cannot move in to pass an orifice in the middle.
+  CHECK(fell >= 16);
+  report("27", "one grain over a ring gap and over an orifice of exactly 1 d, in the middle and up to 0.02 d aside",
+         "leaves, or is held with load = weight", text("%.0f", fell) + " leave, " + text("%.0f", held) + " held");
+
+  for (const char* angle : {"domain.angle=360", "domain.angle=60"}) {
+    Scene scene = hard_case("outlet", {angle});
+    scene.walls[1].profile = {{R, 0}, {0.02, 0}};  // the floor
+    Trial t(scene);
+    t.run(0.6);
+    t.check_sound();
+    CHECK(t.load() == Approx(t.weight()).epsilon(0.01));
+    CHECK(t.unexplained() < 0.02);
+    report(std::string("28") + angle, std::string("outlet with an orifice of exactly 1 d, ") + angle,
+           "ledger exact, load = weight of those inside",
+           text("%.0f", static_cast<double>(t.state.taken_out)) + " leave, load " +
+               text("%.5f", t.load() / t.weight()) + " of the weight");
   }
 }

@@ -284,6 +284,37 @@ TEST_CASE("a folder with a scene but no run is left alone", "[reliability]") {
   CHECK_FALSE(fs::exists(scratch / "mine/run.log"));
 }
 
+TEST_CASE("a start deep in a wall or in another grain ends with 5 and one line that names it", "[reliability]") {
+  const ScratchFolder scratch;
+  const auto row = [](const char* id, const char* place) {
+    return std::string(id) + "," + place + ",0,0,0,0,0,0\n";
+  };
+  struct Start {
+    const char *place, *axis, *says;
+  };
+  for (const Start& start : {Start{"0.0185,0.001,0.05", "clamp", "overlaps the wall 'shell' by"},
+                             Start{"0.01,0.001,0.0015", "clamp", "overlaps the wall 'floor' by"},
+                             Start{"0.0001,0.0001,0.05", "line", "overlaps the wall 'axis line' by"},
+                             Start{"0,0,0.05", "line", "overlaps the wall 'axis line' by 0.0025 m"},
+                             Start{"0.0055,0.001,0.05", "hollow", "overlaps the wall 'inner cylinder' by"},
+                             Start{"0.01,0.003,0.103", "clamp", "overlap by"}}) {
+    INFO(start.says);
+    write_text_file_atomically(scratch / "start.csv",
+                               "id,x,y,z,vx,vy,vz,wx,wy,wz\n" + row("0", "0.01,0.003,0.1") + row("1", start.place));
+    std::vector<std::string> words{"run",   WEDGE_SOURCE_DIR "/tests/hard_cases/pot.toml",
+                                   "-o",    scratch / "run",
+                                   "-j",    "1",
+                                   "--set", "domain.angle=60",
+                                   "--set", "particles.file=" + (scratch / "start.csv"),
+                                   "--set", "domain.axis=" + std::string(start.axis)};
+    if (words.back() == "domain.axis=hollow") words.insert(words.end(), {"--set", "domain.inner_radius=0.004"});
+    const Ended run = wedge_program(words).wait();
+    INFO(run.errors);
+    CHECK(run.code == exit_code::physics);
+    CHECK_THAT(run.errors, Contains("grain") && Contains(start.says) && Contains("Likely cause"));
+  }
+}
+
 TEST_CASE("missing files and a full standard output end with 4 and one line", "[reliability]") {
   const ScratchFolder scratch;
   write_text_file_atomically(scratch / "hopper.toml", short_hopper());

@@ -2,6 +2,7 @@
 // ledgers; refusals.
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "apps/commands.hpp"
@@ -153,4 +154,63 @@ TEST_CASE("a wall that a stage adds into the bed stops the run", "[run]") {
                                            "material = \"wall\"\npresent = false\n";
   CHECK_THROWS_WITH(command_run(a), Catch::Matchers::Contains("the wall 'lid' is added through grain"));
   CHECK(std::filesystem::exists(scratch / "run/frames/crash_particles.hdf"));
+}
+
+TEST_CASE("a run whose energy budget is broken warns, then stops, at the same step however it is run", "[run]") {
+  const ScratchFolder scratch;
+  const auto pot = [&](const std::string& name, int threads, const char* step) {
+    RunArguments a;
+    a.scene = std::string(WEDGE_SOURCE_DIR) + "/tests/hard_cases/pot.toml";
+    a.folder = scratch / name;
+    a.threads = threads;
+    a.overrides = {std::string("time.step=") + step};
+    return a;
+  };
+  const auto error_of = [](const std::function<void()>& work) -> std::string {
+    try {
+      work();
+    } catch (const PhysicsError& error) {
+      return std::string(error.what()).substr(0, std::string(error.what()).find('\n'));
+    }
+    return "";
+  };
+  const auto warnings = [&](const std::string& name) {  // lines in the log
+    std::vector<std::string> found;
+    std::istringstream log(read_text_file(scratch / (name + "/run.log")));
+    for (std::string line; std::getline(log, line);)
+      if (line.rfind("warning: ", 0) == 0) found.push_back(line);
+    return found;
+  };
+  const char* const broken = "6.67e-5";  // 25 % of the Rayleigh time
+  const std::string error = error_of([&] { command_run(pot("one", 1, broken)); });
+  CHECK_THAT(error, Catch::Matchers::Contains("the energy budget is broken in step ") &&
+                        Catch::Matchers::Contains("Likely cause: the time step"));
+  REQUIRE(warnings("one").size() == 1);
+  CHECK_THAT(warnings("one")[0], Catch::Matchers::Contains("are unexplained"));
+  CHECK(error_of([&] { command_run(pot("four", 4, broken)); }) == error);
+  CHECK(warnings("four") == warnings("one"));
+  RunArguments stopped = pot("stopped", 1, broken);
+  for (const double until : {0.06, 0.14, 0.15}) {  // before and after the warning
+    stopped.until = until;
+    CHECK((until < 0.1 ? command_run(stopped) : command_resume(stopped)) == exit_code::ok);
+  }
+  stopped.until.reset();
+  CHECK(error_of([&] { command_resume(stopped); }) == error);
+  CHECK(warnings("stopped") == warnings("one"));
+  CHECK(read_text_file(scratch / "stopped/series/energies.csv") ==
+        read_text_file(scratch / "one/series/energies.csv"));
+
+  RunArguments unasked = pot("unasked", 1, broken);  // no budget, no judgement
+  unasked.overrides.push_back("output.energy_budget=false");
+  CHECK(command_run(unasked) == exit_code::ok);
+  CHECK(warnings("unasked").empty());
+  CHECK(command_run(pot("good", 1, "5.33e-5")) == exit_code::ok);  // 20 %
+  CHECK(warnings("good").empty());
+  // A bed at rest has lost nothing, and the energy stored in its contacts with the floor goes with the floor.
+  RunArguments opened = pot("opened", 1, "2e-5");
+  opened.scene = std::string(WEDGE_SOURCE_DIR) + "/tests/hard_cases/outlet.toml";
+  opened.overrides.insert(opened.overrides.end(), {"start.from=" + (scratch / "good"), "stage.settle.until=0.001",
+                                                   "stage.open.at_most=0.0002"});
+  CHECK(command_run(opened) == exit_code::ok);
+  CHECK(warnings("opened").empty());
 }

@@ -2,6 +2,7 @@
 #include "core/vessel.hpp"
 
 #include "core/random.hpp"
+#include "core/require.hpp"
 #include "tests/catch.hpp"
 #include "tests/laboratory.hpp"
 #include "tests/ladder.hpp"
@@ -95,6 +96,60 @@ TEST_CASE("walls that are taken away leave no contact, and their edge belongs to
   CHECK(contacts({0.0199, 0, 0.002}, 0.0025) == std::vector<int>{1});  // the rim
   CHECK(contacts({0.015, 0, 0.002}, 0.0025).empty());
   CHECK(contacts({0, 0, 0.002}, 0.0025).empty());
+}
+
+TEST_CASE("a grain deep in a wall is refused whenever the list is made", "[vessel]") {
+  const double R = 0.0025;
+  Scene pot = plain_scene(1e7, 0.3, 3800);
+  add_wall(pot, "shell", {{0.02, 0}, {0.02, 0.1}});
+  add_wall(pot, "floor", {{0, 0}, {0.02, 0}});
+  add_wall(pot, "fin", {{0.01, 0.03}, {0.01, 0.05}});
+  Scene line = pot, hollow = pot;
+  make_sector(line, 6, AxisRule::line);
+  make_sector(hollow, 6, AxisRule::hollow);
+  hollow.domain.inner_radius = 0.004;
+  const auto says = [&](const Scene& scene, Vec3 x) -> std::string {
+    try {
+      Experiment e(scene, {{R, {0.015, 0.001, 0.095}, {}, {}}, {R, x, {}, {}}}, 1e-5);
+    } catch (const PhysicsError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto refused = [&](const Scene& scene, Vec3 x, const std::string& wall, const std::string& overlap) {
+    using Catch::Matchers::Contains;
+    CHECK_THAT(says(scene, x), Contains("grain 1 at (") &&
+                                   Contains("overlaps the wall '" + wall + "' by " + overlap) &&
+                                   Contains("in step 0") && Contains("Likely cause"));
+  };
+  refused(pot, {0.0185, 0, 0.08}, "shell", "0.001 m");
+  refused(pot, {0.01, 0, 0.0015}, "floor", "0.001 m");
+  refused(pot, {0, 0, 0}, "floor", "0.0025 m");          // on the end of its profile: no normal
+  refused(pot, {0.005, 0, 0}, "floor", "0.0025 m");      // on the wall itself
+  refused(pot, {0.01, 0, 0.0515}, "fin", "0.001 m");     // over its upper edge
+  refused(pot, {0.01, 0, 0.05}, "fin", "0.0025 m");      // on the edge
+  refused(pot, {0.0109, 0, 0.0499}, "fin", "0.0016 m");  // beside a thin wall, near its edge
+  refused(line, {1e-4, 1e-4, 0.05}, "axis line", "0.00235858 m");
+  refused(line, {0, 0, 0.05}, "axis line", "0.0025 m");
+  refused(hollow, {0.0055, 0.0001, 0.02}, "inner cylinder", "0.000999");
+  const double allowed = 0.99 * 0.3 * R;  // of an overlap
+  for (const Vec3 x : {Vec3{0.02 - R + allowed, 0, 0.08}, Vec3{0.005, 0, R - allowed}, Vec3{0, 0, R - allowed},
+                       Vec3{0.01, 0, 0.05 + R - allowed}, Vec3{0.01 + R - allowed, 0, 0.0499}})
+    CHECK(says(pot, x) == "");
+  pot.walls[2].present = false;
+  CHECK(says(pot, {0.01, 0, 0.05}) == "");
+
+  // A rising plate and a ceiling squeeze a grain; the list is made anew as the plate goes on.
+  Scene press = plain_scene(1e7, 0.3, 3800, 0, 0.3);
+  add_wall(press, "plate", {{0, 0}, {0.02, 0}});
+  add_wall(press, "ceiling", {{0, 2.1 * R}, {0.02, 2.1 * R}});
+  press.walls[0].speed = 0.1;
+  Experiment e(press, {{R, {0.01, 0, 1.05 * R}, {}, {}}}, 1e-5);
+  CHECK_THROWS_WITH(e.run(2000),
+                    Catch::Matchers::Contains("grain 0") && Catch::Matchers::Contains("overlaps the wall"));
+  const double plate = e.state.vessel.travel(0), squeezed = 2 * R - (2.1 * R - plate);
+  CHECK(squeezed > 2 * 0.29 * R);
+  CHECK(squeezed < 2 * 0.45 * R);
 }
 
 TEST_CASE("friction history passes from piece to piece: a joint is not felt", "[vessel]") {
