@@ -238,6 +238,25 @@ TEST_CASE("hard: a bed that falls out of its pot at once, or sinks out of it, gr
   }
 }
 
+TEST_CASE("hard: two grains pressed together leave one after the other", "[hard]") {
+  Scene s = plain_scene(1e7, 0.3, 3800);
+  s.domain.outlet_height = 0;
+  const double overlap = 0.1 * d;
+  Experiment e(s, {{R, {0, 0, 1e-4}, {0, 0, -10}, {}}, {R, {0, 0, 1e-4 + d - overlap}, {0, 0, -10}, {}}}, 1e-7);
+  const double stored = e.begin.elastic_normal;
+  double left = 0;  // stored in the contact when the first one leaves
+  CHECK(e.run_until(
+      [&] {
+        if (e.state.taken_out == 0) left = e.step.energies(e.state).elastic_normal;
+        return e.state.taken_out == 2;
+      },
+      100000));
+  CHECK(left > 0.5 * stored);
+  CHECK(std::fabs(e.residual()) < 0.01 * left);
+  report("26c", "two grains pressed together fly through the outlet", "the first takes the contact's energy along",
+         "residual " + text("%.1e", std::fabs(e.residual()) / left) + " of it");
+}
+
 TEST_CASE("hard: a gap of exactly one diameter", "[hard]") {
   int fell = 0, held = 0;
   const auto drop = [&](const Scene& scene, Vec3 x) {

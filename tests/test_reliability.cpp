@@ -285,7 +285,6 @@ TEST_CASE("a folder with a scene but no run is left alone", "[reliability]") {
 }
 
 TEST_CASE("a start deep in a wall or in another grain ends with 5 and one line that names it", "[reliability]") {
-  const ScratchFolder scratch;
   const auto row = [](const char* id, const char* place) {
     return std::string(id) + "," + place + ",0,0,0,0,0,0\n";
   };
@@ -299,6 +298,7 @@ TEST_CASE("a start deep in a wall or in another grain ends with 5 and one line t
                              Start{"0.0055,0.001,0.05", "hollow", "overlaps the wall 'inner cylinder' by"},
                              Start{"0.01,0.003,0.103", "clamp", "overlap by"}}) {
     INFO(start.says);
+    const ScratchFolder scratch;
     write_text_file_atomically(scratch / "start.csv",
                                "id,x,y,z,vx,vy,vz,wx,wy,wz\n" + row("0", "0.01,0.003,0.1") + row("1", start.place));
     std::vector<std::string> words{"run",   WEDGE_SOURCE_DIR "/tests/hard_cases/pot.toml",
