@@ -46,7 +46,8 @@ void read_grains(State& state, const Scene& scene, const StateFile& file) {
 
 /// Gives grains that were counted by the materials of the run in `from` their places among those of `scene`.
 void rename_materials(Particles& p, const CheckpointExtra& from, const Scene& scene, const std::string& path) {
-  const std::vector<std::string> there = grain_material_names(parse_scene(from.resolved_scene, path, {}, "").materials);
+  const std::vector<std::string> there =
+      grain_material_names(parse_scene(from.resolved_scene, path, {}, "").materials);
   const std::vector<std::string> here = grain_material_names(scene.materials);
   for (auto& material : p.material) {
     if (material < 0 || static_cast<std::size_t>(material) >= there.size())

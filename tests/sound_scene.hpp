@@ -73,7 +73,9 @@ inline std::string complaint(const std::string& text, const std::vector<std::str
   return "";
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 inline int count_errors(const std::string& text) {
   int errors = 0;

@@ -169,4 +169,3 @@ TEST_CASE("doubtful scenes are accepted with a warning", "[scene]") {
   warned({"contact.grain-grain.damping=1.5"}, "critical or above");
   warned({"stage.open.at_most=0"}, "may never end");
 }
-
