@@ -26,7 +26,7 @@ TEST_CASE("hard: ten thousand grains fall on ten thousand", "[hard][large]") {
 }
 
 TEST_CASE("hard: two million grains for a hundred steps", "[hard][large]") {
-  Scene scene = hard_case("pot", {"particles.count=2000", "particles.speed=0.5"});
+  Scene scene = hard_case("pot", {"particles.speed=0.5"});
   for (WallDescription& wall : scene.walls)
     for (Eigen::Vector2d& point : wall.profile) point = {point.x() > 0 ? 0.4 : 0.0, point.y() > 0 ? 1.4 : 0.0};
   RandomFill& fill = std::get<RandomFill>(scene.particles.grains);
