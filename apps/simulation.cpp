@@ -201,11 +201,14 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
 }
 
 void Simulation::begin_stage() {
-  Vessel& vessel = state_->vessel;
-  for (const std::string& name : stage().remove) vessel.set_present(vessel.wall_index(name), false);
-  for (const std::string& name : stage().add) vessel.set_present(vessel.wall_index(name), true);
-  for (const std::string& name : stage().add) refuse_wall_in_grain(*state_, vessel.wall_index(name));
-  if (!stage().remove.empty() || !stage().add.empty()) TimeStep::expire_list(*state_);
+  const auto numbers = [this](const std::vector<std::string>& names) {
+    std::vector<int> walls;
+    for (const std::string& name : names) walls.push_back(state_->vessel.wall_index(name));
+    return walls;
+  };
+  const std::vector<int> added = numbers(stage().add);
+  step_->change_walls(*state_, numbers(stage().remove), added);
+  for (const int w : added) refuse_wall_in_grain(*state_, w);
   memory_.stage_begun = true;
   memory_.stage_start = state_->time;
   memory_.stage_start_out = state_->taken_out;

@@ -24,7 +24,7 @@ struct EnergyLedger {
   double tangential_work = 0;             // done against the elastic tangential forces, sliding included
   double wall_work = 0;                   // done by moving walls on the grains
   double carried_in = 0;                  // energy of grains when they entered
-  double carried_out = 0;                 // energy of grains, and of their contacts, when they left
+  double carried_out = 0;                 // energy of grains and their contacts when they left, of contacts with removed walls
   double elastic_tangential_removed = 0;  // elastic tangential energy of contacts removed with their grain
 
   template <class Self, class Visit>

@@ -116,6 +116,17 @@ void TimeStep::start(State& state, double dt) {
 
 void TimeStep::expire_list(State& state) { state.wall_travel = std::numeric_limits<double>::infinity(); }
 
+void TimeStep::change_walls(State& state, const std::vector<int>& remove, const std::vector<int>& add) const {
+  if (remove.empty() && add.empty()) return;
+  const ElasticEnergy before = law_.elastic_energy(state, {});
+  for (const int w : remove) state.vessel.set_present(w, false);
+  for (const int w : add) state.vessel.set_present(w, true);
+  const ElasticEnergy after = law_.elastic_energy(state, {});
+  state.energy.carried_out += before.normal + before.tangential - after.normal - after.tangential;
+  state.energy.elastic_tangential_removed += before.tangential - after.tangential;
+  expire_list(state);
+}
+
 /// Books the energy that leaving grains take along: their own, and what is stored in contacts with them.
 void TimeStep::book_departures(State& state) {
   const Particles& p = state.particles;

@@ -1,6 +1,8 @@
 // time_step.hpp: one step of the simulation: the one place that knows the order of the passes.
 #pragma once
 
+#include <vector>
+
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "core/stopwatch.hpp"
@@ -33,8 +35,10 @@ public:
   void start(State& state, double dt);
   /// One step of length dt [s]. Throws PhysicsError when the physics breaks down; the state is then that moment's.
   void advance(State& state, double dt);
-  /// Makes the next step renew the neighbour list: to be called when walls were added or removed.
+  /// Makes the next step renew the neighbour list.
   static void expire_list(State& state);
+  /// Takes walls away and puts others in place, by number; the energy in contacts with the former goes with them.
+  void change_walls(State& state, const std::vector<int>& remove, const std::vector<int>& add) const;
 
   Energies energies(const State& state) const;
   /// What the budget of `state.energy` leaves unexplained [J], given the energies at the start; see EnergyLedger.

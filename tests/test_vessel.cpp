@@ -98,6 +98,19 @@ TEST_CASE("walls that are taken away leave no contact, and their edge belongs to
   CHECK(contacts({0, 0, 0.002}, 0.0025).empty());
 }
 
+TEST_CASE("a wall that is taken away takes along what its contacts hold", "[vessel]") {
+  // Hertz: (8/15) E* sqrt(R) dn^(5/2); both materials alike, and the grain stands still.
+  Scene scene = plain_scene(1e7, 0.3, 3800, 0.6, 0);
+  add_wall(scene, "floor", {{0, 0}, {1, 0}});
+  const double R = 0.0025, overlap = 0.02 * R, young = 1e7 / (2 * (1 - 0.3 * 0.3));
+  Experiment e(scene, {{R, {0.01, 0, R - overlap}, {}, {}}}, 1e-6);
+  const double stored = 8.0 / 15.0 * young * std::sqrt(R) * std::pow(overlap, 2.5);
+  CHECK(e.begin.elastic_normal == Approx(stored).epsilon(1e-10));
+  e.step.change_walls(e.state, {0}, {});
+  CHECK(e.state.energy.carried_out == Approx(stored).epsilon(1e-10));
+  CHECK(std::abs(e.residual()) < 1e-12 * stored);
+}
+
 TEST_CASE("a grain deep in a wall is refused whenever the list is made", "[vessel]") {
   const double R = 0.0025;
   Scene pot = plain_scene(1e7, 0.3, 3800);

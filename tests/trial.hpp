@@ -34,10 +34,7 @@ public:
   void run_steps(std::int64_t steps) {
     for (std::int64_t k = 0; k < steps; ++k) step.advance(state, dt);
   }
-  void open(const char* wall) {
-    state.vessel.set_present(state.vessel.wall_index(wall), false);
-    TimeStep::expire_list(state);
-  }
+  void open(const char* wall) { step.change_walls(state, {state.vessel.wall_index(wall)}, {}); }
 
   bool finite() const {
     const Particles& p = state.particles;
