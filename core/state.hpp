@@ -16,15 +16,15 @@ namespace wedge {
 /// Balance: kinetic + rotational + elastic + potential now = the same at the start + carried_in - carried_out
 /// + wall_work + history_coupling - the dissipated ones + residual.
 struct EnergyLedger {
-  double normal_damping = 0;              // dissipated
-  double tangential_damping = 0;          // dissipated
-  double sliding = 0;                     // dissipated
-  double rolling = 0;                     // dissipated
-  double axis = 0;                        // dissipated by the axis rule `clamp`
-  double tangential_work = 0;             // done against the elastic tangential forces, sliding included
-  double wall_work = 0;                   // done by moving walls on the grains
-  double carried_in = 0;                  // energy of grains when they entered
-  double carried_out = 0;                 // energy of grains and their contacts when they left, of contacts with removed walls
+  double normal_damping = 0;      // dissipated
+  double tangential_damping = 0;  // dissipated
+  double sliding = 0;             // dissipated
+  double rolling = 0;             // dissipated
+  double axis = 0;                // dissipated by the axis rule `clamp`
+  double tangential_work = 0;     // done against the elastic tangential forces, sliding included
+  double wall_work = 0;           // done by moving walls on the grains
+  double carried_in = 0;          // energy of grains when they entered
+  double carried_out = 0;         // energy of grains that left, of their contacts and those with removed walls
   double elastic_tangential_removed = 0;  // elastic tangential energy of contacts removed with their grain
 
   template <class Self, class Visit>

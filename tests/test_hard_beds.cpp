@@ -212,7 +212,9 @@ TEST_CASE("hard: a million steps without damping and friction keep the energy", 
   CAPTURE(coarse, fine);
   CHECK(coarse < 1e-3);
   CHECK(fine < 0.4 * coarse);
-  report("09", "24 grains in a closed can, no damping, no friction, 6 seeds, 10^6 steps in all, part of them at half the step",
+  report("09",
+         "24 grains in a closed can, no damping, no friction, 6 seeds, 10^6 steps in all, part of them at half the "
+         "step",
          "energy kept, to the second order in the step",
          "wanders by " + text("%.1e", coarse) + " and " + text("%.1e", fine) + " of it");
 }
