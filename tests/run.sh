@@ -3,7 +3,7 @@
 #   --clang           built with clang
 #   --asan            under the address and undefined-behaviour sanitizers
 #   --tsan            under the thread sanitizer, with clang and its OpenMP runtime
-#   --nightly         the long ones: fifty kills, heavy drops, two million grains
+#   --nightly         the long ones: fifty kills, a million steps, a heavy drop, two million grains
 #   --validate        those that compare with known numbers, and the hard cases; writes their tables into tests/README.md
 #   --fuzz [SECONDS]  no tests: each reader under libFuzzer for so long (600 s), one after the other
 set -euo pipefail
@@ -40,11 +40,11 @@ in_hdf5() {
     END { exit !found }'
 }
 
-# fuzz_all SECONDS: finds are put into build/fuzz/work/READER/finds; what is worth keeping goes to tests/fuzz/finds by hand.
+# fuzz_all SECONDS: finds are put into build/fuzz/runs/READER/finds; what is worth keeping goes to tests/fuzz/finds by hand.
 fuzz_all() {
   local seconds=$1 reader folder go_on outcome find failed=0
   for reader in scene csv checkpoint checkpoint_bytes; do
-    folder=build/fuzz/work/$reader
+    folder=build/fuzz/runs/$reader
     mkdir -p "$folder/corpus" "$folder/finds" tests/fuzz/finds/$reader
     echo "== $reader: $seconds s"
     # libhdf5 itself falls over some damaged files: go on behind them.
