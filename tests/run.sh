@@ -3,7 +3,7 @@
 #   --clang           built with clang
 #   --asan            under the address and undefined-behaviour sanitizers
 #   --tsan            under the thread sanitizer, with clang and its OpenMP runtime
-#   --nightly         the long ones: fifty kills, a million steps, a heavy drop, two million grains
+#   --nightly         the long ones: fifty kills, a heavy drop, two million grains
 #   --validate        those that compare with known numbers, and the hard cases; writes their tables into tests/README.md
 #   --fuzz [SECONDS]  no tests: each reader under libFuzzer for so long (600 s), one after the other
 set -euo pipefail
