@@ -87,7 +87,7 @@ double coordination_number(const State& state, const Scene& scene) {
   if (grains == 0) return not_known;
   double ends = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(c.rows()); ++k) {
-    if (!(c.half_overlap(k) > 0)) continue;
+    if (!(row_overlap(state, k) > 0)) continue;
     const Index image = c.second[k] - state.particles.count();
     const bool own_copy = image >= 0 && state.images.owner[static_cast<std::size_t>(image)] == c.first[k];
     const auto first = static_cast<std::size_t>(c.first[k]), second = static_cast<std::size_t>(c.second[k]);

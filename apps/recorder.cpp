@@ -125,7 +125,7 @@ void Recorder::record_due(State& state, const TimeStep& step, RunMemory& memory)
     ++memory.listed_frames;
     frame = true;
   }
-  if (frame) record_frame(state, memory);
+  if (frame) record_frame(state, step, memory);
 }
 
 void Recorder::record_series(const State& state, const TimeStep& step, RunMemory& memory) {
@@ -169,13 +169,14 @@ void Recorder::list_frames(const RunMemory& memory) const {
   }
 }
 
-void Recorder::record_frame(const State& state, RunMemory& memory) {
+void Recorder::record_frame(const State& state, const TimeStep& step, RunMemory& memory) {
   FrameInfo info;
   info.scene_text = scene_.text;
   info.precision = scene_.output.precision;
   info.number = static_cast<std::int64_t>(memory.frame_times.size());
   write_particle_frame(folder_.frame("particles", info.number), state, info);
-  if (scene_.output.contacts) write_contact_frame(folder_.frame("contacts", info.number), state, info);
+  if (scene_.output.contacts)
+    write_contact_frame(folder_.frame("contacts", info.number), state, step.contact_forces(state), info);
   memory.frame_times.push_back(state.time);
   list_frames(memory);
 }

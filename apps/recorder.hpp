@@ -26,7 +26,7 @@ public:
   /// A row of every series now, unless this moment has one.
   void record_series(const State& state, const TimeStep& step, RunMemory& memory);
   /// A frame now, whatever the schedule.
-  void record_frame(const State& state, RunMemory& memory);
+  void record_frame(const State& state, const TimeStep& step, RunMemory& memory);
   /// Moves the departures of the state to discharge.csv.
   void record_departures(State& state);
   /// Writes a checkpoint and keeps the last two. Pre: departures were recorded.

@@ -225,7 +225,7 @@ void Simulation::end_stage() {
   const std::string name = stage().name;
   judge_budget();
   recorder_->record_series(*state_, *step_, memory_);
-  recorder_->record_frame(*state_, memory_);
+  recorder_->record_frame(*state_, *step_, memory_);
   results_.push_back(measure_bed(*state_, *scene_, name, discharge_rate(), memory_.stage_wall_seconds));
   write_bed_table(folder_.beds(), results_);
   std::ostringstream text;

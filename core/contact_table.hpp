@@ -1,4 +1,4 @@
-// contact_table.hpp: the near pairs of grains (one row each) and of grains with walls, with histories and forces.
+// contact_table.hpp: the near pairs of grains (one row each) and of grains with walls, with their histories.
 #pragma once
 
 #include <cstdint>
@@ -19,29 +19,14 @@ struct ContactTable {
   Vec3Array history;               // m, tangential displacement (see kernels/README.md for its half-step part)
   Vec3Array normal;                // unit vector first -> second at the last force step
 
-  // Written by each force step, row by row: eight numbers a row, so that a grain that sums its rows reads one cache
-  // line of each. In order: force on `first` [N] (3); n x f_t [N] (3), which times a lever arm is the torque on
-  // either grain; half of the overlap [m], lever arm = radius - half_overlap; mu_r |f_n| [N m].
-  static constexpr std::size_t outcome_size = 8;
-  Array<double> outcome;
-  Vec3 force(std::size_t row) const { return triple(row, 0); }
-  Vec3 lever_torque(std::size_t row) const { return triple(row, 3); }
-  double half_overlap(std::size_t row) const { return outcome[outcome_size * row + 6]; }
-  double rolling_cap(std::size_t row) const { return outcome[outcome_size * row + 7]; }
-
-  // Rolling couples, kept only where a row has one (rolling_velocity `relative`, elastic_plastic_spring).
+  // Kept only where rows have rolling couples (rolling_velocity `relative`, elastic_plastic_spring).
   Vec3Array couple;            // N m, on `first`; the other grain feels its negative. Written by each force step
   Vec3Array rolling_moment;    // N m, of the rolling spring, in the frame of `first`; its half step like `history`
   Array<Index> contact_count;  // contacts of each slot's grain; scratch of each force step
 
-  // The rows in which a slot is `second`: incoming[incoming_begin[s] .. incoming_begin[s+1]-1], ascending. A
-  // contact of a grain with its own copy half a turn away is left out: its reaction is the same contact seen again;
-  // so is a contact of a grain pinned to the axis with a copy (axis `pin`).
-  Array<Index> incoming_begin, incoming;
-
   Index rows() const { return static_cast<Index>(first.size()); }
 
-  /// Visits what has rows() entries; with `outcome` it is what must survive a restart.
+  /// Visits what has rows() entries.
   template <class Self, class Visit>
   static void for_each_field(Self& c, Visit&& visit) {
     visit(FieldInfo{"first", "", "slot of the grain with the smaller id"}, c.first);
@@ -69,13 +54,6 @@ struct ContactTable {
 
   void resize(Index rows) {
     for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(rows)); });
-    outcome.resize(outcome_size * static_cast<std::size_t>(rows));
-  }
-
-private:
-  Vec3 triple(std::size_t row, std::size_t first_number) const {
-    const double* r = outcome.data() + outcome_size * row + first_number;
-    return {r[0], r[1], r[2]};
   }
 };
 

@@ -63,17 +63,23 @@ void for_each(Index n, Body&& body) {
   });
 }
 
-/// Combines body(begin, end) of all blocks of 0 .. n-1 in block order, starting from `start`.
+/// Combines body(block) for block = 0 .. blocks-1 in their order, starting from `start`.
 /// Post: the result does not depend on the number of threads.
 template <class T, class Body, class Combine>
-T reduce_blocks(Index n, T start, Body&& body, Combine&& combine) {
-  std::vector<T> partial(static_cast<std::size_t>(block_count(n)), start);
-  for_each_block(block_count(n), [&](Index b) {
-    partial[static_cast<std::size_t>(b)] = body(b * block_size, std::min<Index>(n, (b + 1) * block_size));
-  });
+T reduce_each_block(Index blocks, T start, Body&& body, Combine&& combine) {
+  std::vector<T> partial(static_cast<std::size_t>(blocks), start);
+  for_each_block(blocks, [&](Index b) { partial[static_cast<std::size_t>(b)] = body(b); });
   T total = start;
   for (const T& p : partial) total = combine(total, p);
   return total;
+}
+
+/// The same for body(begin, end) of all blocks of 0 .. n-1.
+template <class T, class Body, class Combine>
+T reduce_blocks(Index n, T start, Body&& body, Combine&& combine) {
+  return reduce_each_block(
+      block_count(n), start,
+      [&](Index b) { return body(b * block_size, std::min<Index>(n, (b + 1) * block_size)); }, combine);
 }
 
 }  // namespace wedge

@@ -1,8 +1,8 @@
 // particles.hpp: the grains, as a structure of arrays, and the one list of their fields.
 //
-// Slots 0 .. count()-1 are the grains of the domain. Slots count() .. count()+images-1 of `position`,
-// `velocity_seen`, `angular_velocity_seen`, `radius`, `mass` and `material` are images of grains across a periodic
-// face (see image_map.hpp); all other fields hold grains alone.
+// Slots 0 .. count()-1 are the grains of the domain. Slots count() .. count()+images-1 of `position`, `seen`, `radius`,
+// `mass` and `material` are images of grains across a periodic face (see image_map.hpp); all other fields hold grains
+// alone.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,18 @@ struct FieldInfo {
   const char* unit;     // SI, "" for a plain number
   const char* meaning;  // one line for the reader of the file
 };
+
+/// What contacts see of a grain or an image during a force step: its place, and velocities predicted to the time of
+/// the place. One record a slot, because a contact reads all of it, of partners that lie anywhere (perf/README.md).
+struct alignas(32) Seen {
+  Vec3 position, velocity;  // m, m/s
+  double radius = 0;        // m
+  double mass = 0;          // kg
+  Vec3 angular_velocity;    // rad/s
+  double material = 0;      // index of the material
+};
+inline constexpr std::size_t seen_size = sizeof(Seen) / sizeof(double);
+static_assert(seen_size == 12, "the contact pass reads twelve numbers");
 
 struct Particles {
   // State: all of one time between steps.
@@ -36,9 +48,7 @@ struct Particles {
   Array<std::int32_t>
       turns;  // faces crossed: the unrolled position is the position turned by `turns` sector angles
 
-  // What contacts see during a force step: velocities predicted to its time, for grains and images. Not state.
-  Vec3Array velocity_seen;
-  Vec3Array angular_velocity_seen;
+  Array<Seen> seen;  // written by each step, for grains and images
 
   Index count() const { return static_cast<Index>(id.size()); }
 
@@ -78,8 +88,7 @@ struct Particles {
   /// Post: every field has n slots; images are gone.
   void resize(Index n) {
     for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(n)); });
-    velocity_seen.resize(static_cast<std::size_t>(n));
-    angular_velocity_seen.resize(static_cast<std::size_t>(n));
+    seen.resize(static_cast<std::size_t>(n));
   }
 };
 
@@ -88,6 +97,9 @@ inline double sphere_mass(double radius, double density) {
   return density * (4.0 / 3.0) * 3.14159265358979323846 * radius * radius * radius;
 }
 /// Moment of inertia of a homogeneous sphere about a diameter [kg m2].
-inline double sphere_inertia(double mass, double radius) { return (2.0 / 5.0) * mass * radius * radius; }
+template <class Real>
+inline Real sphere_inertia(const Real& mass, const Real& radius) {
+  return (2.0 / 5.0) * mass * radius * radius;
+}
 
 }  // namespace wedge

@@ -62,6 +62,7 @@ struct State {
 
   double time = 0;                    // s
   std::int64_t step = 0;              // steps done
+  double history_ahead = 0;           // s: stored displacements are this far ahead (kernels/README.md)
   double wall_margin = 0;             // m: how far a moving wall may go before the neighbour list is stale
   double wall_travel = 0;             // m: how far the fastest wall has gone since the list was made
   std::int64_t list_builds = 0;       // neighbour lists made so far
@@ -71,5 +72,13 @@ struct State {
   std::int64_t taken_out = 0;         // grains discharged since the start
   std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
 };
+
+/// Overlap of the two grains of a row [m], at the places where they are now; negative while they are apart.
+inline double row_overlap(const State& state, std::size_t row) {
+  const Particles& p = state.particles;
+  const auto i = static_cast<std::size_t>(state.contacts.first[row]),
+             j = static_cast<std::size_t>(state.contacts.second[row]);
+  return p.radius[i] + p.radius[j] - norm(p.position.get(j) - p.position.get(i));
+}
 
 }  // namespace wedge

@@ -1,7 +1,7 @@
 // vec3.hpp: three numbers in registers (Vec3) and three arrays in memory (Vec3Array).
 //
-// Vec3 serves the inner loops: plain arithmetic on three doubles that the compiler takes apart and
-// vectorises across particles or contacts. Geometry outside the loops uses Eigen.
+// Vector3 serves the inner loops: plain arithmetic on three numbers, or on three packs of numbers (pack.hpp).
+// Geometry outside the loops uses Eigen.
 #pragma once
 
 #include <cmath>
@@ -10,19 +10,57 @@
 
 namespace wedge {
 
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
+template <class Real>
+struct Vector3 {
+  Real x{}, y{}, z{};
 };
+using Vec3 = Vector3<double>;
 
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vec3& operator+=(Vec3& a, Vec3 b) { return a = a + b; }
-inline Vec3& operator-=(Vec3& a, Vec3 b) { return a = a - b; }
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+/// A parameter that does not decide what the template is: takes whatever converts to T.
+template <class T>
+struct Plain {
+  using type = T;
+};
+template <class T>
+using plain_t = typename Plain<T>::type;
+
+template <class Real>
+inline Vector3<Real> operator+(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Real>
+inline Vector3<Real> operator-(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Real>
+inline Vector3<Real> operator-(const Vector3<Real>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class Real>
+inline Vector3<Real> operator*(const plain_t<Real>& s, const Vector3<Real>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class Real>
+inline Vector3<Real>& operator+=(Vector3<Real>& a, const plain_t<Vector3<Real>>& b) {
+  return a = a + b;
+}
+template <class Real>
+inline Vector3<Real>& operator-=(Vector3<Real>& a, const plain_t<Vector3<Real>>& b) {
+  return a = a - b;
+}
+template <class Real>
+inline Real dot(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Real>
+inline Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Real>
+inline Real norm(const Vector3<Real>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
 
 /// A vector field stored as three arrays of equal length.
 struct Vec3Array {

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
 using Head = std::array<char, head_size>;
 
@@ -94,13 +94,10 @@ void for_each_array(Self& s, Visit&& visit) {
   visit("images/owner", s.images.owner);
   visit("images/turn", s.images.turn);
   visit("contacts/row_begin", s.contacts.row_begin);
-  visit("contacts/incoming_begin", s.contacts.incoming_begin);
-  visit("contacts/incoming", s.contacts.incoming);
   ContactTable::for_each_field(
       s.contacts, [&](const FieldInfo& info, auto& field) { visit(std::string("contacts/") + info.name, field); });
   ContactTable::for_each_couple_field(
       s.contacts, [&](const FieldInfo& info, auto& field) { visit(std::string("contacts/") + info.name, field); });
-  visit("contacts/outcome", s.contacts.outcome);
   visit("wall_contacts/grain", s.wall_contacts.grain);
   visit("wall_contacts/begin", s.wall_contacts.begin);
   WallContactTable::for_each_field(s.wall_contacts, [&](const FieldInfo& info, auto& field) {
@@ -129,6 +126,7 @@ void for_each_number(Self& s, Visit&& visit) {
   visit("list_builds", s.list_builds);
   visit("mean_diameter", s.mean_diameter);
   visit("alike", s.alike);
+  visit("history_ahead", s.history_ahead);
   visit("put_in", s.put_in);
   visit("taken_out", s.taken_out);
 }
@@ -252,6 +250,9 @@ void write_particles(Hdf5Writer& file, const Particles& p, std::size_t images) {
     require(field.size() >= n + images, "a particle field has no room for the images");
     file.write(name, field.data() + n, Shape{images});
   });
+  require(p.seen.size() >= n + images, "what contacts see lacks grains or images");
+  const std::size_t numbers = seen_size * (n + images);
+  file.write("seen", reinterpret_cast<const double*>(p.seen.data()), Shape{numbers});
 }
 
 void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
@@ -266,9 +267,8 @@ void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
     field.resize(n + images);
     file.read(name, field.data() + n, images);
   });
-  for (Vec3Array* seen : {&p.velocity_seen, &p.angular_velocity_seen}) {
-    for (Array<double>* component : {&seen->x, &seen->y, &seen->z}) component->assign(n + images, 0.0);
-  }
+  p.seen.resize(n + images);
+  file.read("seen", reinterpret_cast<double*>(p.seen.data()), seen_size * (n + images));
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ struct ContactLine {
   double normal_load, tangential_load, overlap;
 };
 
-ContactLine contact_line(const State& state, std::size_t row) {
+ContactLine contact_line(const State& state, const Vec3Array& forces, std::size_t row) {
   const ContactTable& rows = state.contacts;
   const auto first = static_cast<std::size_t>(rows.first[row]), second = static_cast<std::size_t>(rows.second[row]);
   ContactLine c{};
@@ -152,21 +152,21 @@ ContactLine contact_line(const State& state, std::size_t row) {
   c.first_position = state.particles.position.get(first);
   c.second_position = state.particles.position.get(second);
   c.normal = rows.normal.get(row);
-  const Vec3 force = rows.force(row);
+  const Vec3 force = forces.get(row);
   const double along = dot(force, c.normal);
   c.normal_force = along * c.normal;
   c.tangential_force = force - c.normal_force;
   c.normal_load = -along;
   c.tangential_load = norm(c.tangential_force);
-  c.overlap = 2 * rows.half_overlap(row);
+  c.overlap = row_overlap(state, row);
   return c;
 }
 
 /// Rows of the contact table that touch.
-std::vector<Index> touching_rows(const ContactTable& rows) {
+std::vector<Index> touching_rows(const State& state) {
   std::vector<Index> touching;
-  for (Index k = 0; k < rows.rows(); ++k) {
-    if (rows.half_overlap(static_cast<std::size_t>(k)) > 0) touching.push_back(k);
+  for (Index k = 0; k < state.contacts.rows(); ++k) {
+    if (row_overlap(state, static_cast<std::size_t>(k)) > 0) touching.push_back(k);
   }
   return touching;
 }
@@ -222,15 +222,17 @@ void write_particle_frame(const std::string& path, const State& state, const Fra
   writer.save();
 }
 
-void write_contact_frame(const std::string& path, const State& state, const FrameInfo& info) {
+void write_contact_frame(const std::string& path, const State& state, const Vec3Array& forces,
+                         const FrameInfo& info) {
+  require(forces.size() == state.contacts.first.size(), "a contact frame needs a force for each row");
   FrameWriter writer(path, state, info, contact_format);
-  const std::vector<Index> touching = touching_rows(state.contacts);
+  const std::vector<Index> touching = touching_rows(state);
   const std::size_t n = touching.size();
   ContactLine contact{};
   // Field after field, so that only one of them is in memory.
   const auto for_each_contact = [&](auto&& use) {
     for (const Index row : touching) {
-      contact = contact_line(state, static_cast<std::size_t>(row));
+      contact = contact_line(state, forces, static_cast<std::size_t>(row));
       use();
     }
   };
@@ -274,10 +276,7 @@ ParticleFrame read_particle_frame(const std::string& path) {
   Particles& p = frame.particles;
   p.resize(static_cast<Index>(n));
   Particles::for_each_field(p, [](const FieldInfo&, auto& field) { std::fill(field.begin(), field.end(), 0); });
-  for (Vec3Array* seen : {&p.velocity_seen, &p.angular_velocity_seen}) {
-    for (Array<double>* component : {&seen->x, &seen->y, &seen->z})
-      std::fill(component->begin(), component->end(), 0);
-  }
+  std::fill(p.seen.begin(), p.seen.end(), Seen{});
   for_each_frame_field(
       p, [&](const std::string& name, auto& field) { read_field(file, "particles/" + name, field, n); });
   return frame;

@@ -28,7 +28,8 @@ void write_particle_frame(const std::string& path, const State& state, const Fra
 /// Writes the rows of state.contacts that touch (half_overlap > 0); contacts with walls are left out. A contact
 /// across a face is drawn to the image. Throws FileError. Pre: image positions, normals and forces are those of the
 /// last force step.
-void write_contact_frame(const std::string& path, const State& state, const FrameInfo& info);
+void write_contact_frame(const std::string& path, const State& state, const Vec3Array& forces,
+                         const FrameInfo& info);
 
 /// What a frame says about itself.
 struct FrameHeader {

@@ -173,8 +173,7 @@ private:
       p.radius[i] = rows_[i].radius;
       p.material[i] = rows_[i].material;
       p.id[i] = rows_[i].id;
-      p.velocity_seen.set(i, {});
-      p.angular_velocity_seen.set(i, {});
+      p.seen[i] = {};
     }
     return p;
   }

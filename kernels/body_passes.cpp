@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "kernels/reduce_forces.hpp"
+#include "kernels/integrate.hpp"
 
 namespace wedge {
 
@@ -32,17 +32,20 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
         constexpr Friction need = decltype(f)::value;
         constexpr AxisAction act = decltype(axis)::value;
         constexpr bool same = decltype(one_kind)::value;
-        const auto bodies = [radius = same ? state.particles.radius[0] : 0.0,
-                             mass = same ? state.particles.mass[0] : 0.0](const State& s) {
+        const Particles& p = state.particles;
+        const UniformBodies one = same ? UniformBodies{p.radius[0], p.mass[0], p.material[0]} : UniformBodies{};
+        const auto bodies = [one](const State& s) {
           if constexpr (same)
-            return (void)s, UniformBodies{radius, mass};
+            return (void)s, one;
           else
-            return GeneralBodies{s.particles.radius.data(), s.particles.mass.data()};
+            return (void)one,
+                   GeneralBodies{s.particles.radius.data(), s.particles.mass.data(), s.particles.material.data()};
         };
         passes.kick_and_drift = [=](State& s, double dt) { return kick_and_drift<need, act>(bodies(s), s, g, dt); };
-        passes.kick = [=](State& s, double dt) { kick<need, act>(bodies(s), s, g, dt); };
-        passes.reduce_forces = [=](State& s) { reduce_forces<need>(bodies(s), s); };
-        passes.fold_images = [=](State& s) { fold_images<need>(bodies(s), s); };
+        passes.kick = [=](State& s, const Reactions& r, double dt) { kick<need, act>(bodies(s), s, r, g, dt); };
+        passes.take_forces = [](State& s, const Reactions& r) {
+          take_sums<need>(r, kick_arrays(s.particles), 0, s.particles.count());
+        };
       },
       level, action, alike);
   return passes;

@@ -1,4 +1,4 @@
-// body_passes.hpp: the passes over grains (kicks, drift, reduction), with all types chosen: one call each per step.
+// body_passes.hpp: the passes over grains (kicks and drift), with all types chosen: one call each per step.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,8 @@ namespace wedge {
 
 struct BodyPasses {
   std::function<bool(State&, double dt)> kick_and_drift;  // true: the neighbour list is stale
-  std::function<void(State&)> reduce_forces;
-  std::function<void(State&)> fold_images;
-  std::function<void(State&, double dt)> kick;
+  std::function<void(State&, const Reactions&, double dt)> kick;
+  std::function<void(State&, const Reactions&)> take_forces;  // alone, without a kick
 };
 
 BodyPasses make_body_passes(const Scene& scene, const State& state, Friction friction, bool uniform);

@@ -6,30 +6,35 @@
 #include <limits>
 
 #include "core/material.hpp"
+#include "core/pack.hpp"
 #include "core/restitution.hpp"
 #include "core/scene.hpp"
-#include "core/vec3.hpp"
 
 namespace wedge {
 
-/// One contact as a law sees it. n points from the first body to the second; forces are those on the first.
-struct ContactInput {
-  double overlap;            // m, >= 0
-  double effective_radius;   // m
-  double effective_mass;     // kg
-  double approach_velocity;  // m/s: v_ij . n, positive while the bodies approach
-  Vec3 tangential_velocity;  // m/s: v_ij less its normal part
-  Vec3 displacement;         // m: stored tangential displacement, already moved on to this moment
+/// One contact, or a pack of them, as a law sees it. n points from the first body to the second; forces are those on
+/// the first.
+template <class Real>
+struct ContactInputOf {
+  Real overlap{};                      // m, >= 0
+  Real effective_radius{};             // m
+  Real effective_mass{};               // kg
+  Real approach_velocity{};            // m/s: v_ij . n, positive while the bodies approach
+  Vector3<Real> tangential_velocity;   // m/s: v_ij less its normal part
+  Vector3<Real> displacement;          // m: stored tangential displacement, already moved on to this moment
 };
+using ContactInput = ContactInputOf<double>;
 
-struct ContactResponse {
-  double normal = 0;          // N: total normal force, positive pushes the bodies apart
-  double elastic_normal = 0;  // N: |f_cn|
-  Vec3 tangential;            // N
-  Vec3 displacement;          // m: what is left of the displacement after sliding
-  Vec3 elastic_tangential;    // N: the part of `tangential` that is not viscous
-  double sliding_loss = 0;    // J lost by sliding in this step
+template <class Real>
+struct ContactResponseOf {
+  Real normal{};                      // N: total normal force, positive pushes the bodies apart
+  Real elastic_normal{};              // N: |f_cn|
+  Vector3<Real> tangential;           // N
+  Vector3<Real> displacement;         // m: what is left of the displacement after sliding
+  Vector3<Real> elastic_tangential;   // N: the part of `tangential` that is not viscous
+  Real sliding_loss{};                // J lost by sliding in this step
 };
+using ContactResponse = ContactResponseOf<double>;
 
 /// The smallest number whose square root and inverse are finite: keeps x / |x| defined at x = 0.
 inline constexpr double tiny = 1e-150;
@@ -51,6 +56,19 @@ inline double effective_shear(const Material& a, const Material& b) {
 /// The least total normal force a contact may carry.
 inline double lowest_normal(Tension tension) {
   return tension == Tension::none ? 0.0 : -std::numeric_limits<double>::infinity();
+}
+
+/// Elastic tangential force with a Coulomb cap [N] and a dashpot that acts while the contact sticks.
+template <class Real>
+WEDGE_INLINE void limit_sliding(ContactResponseOf<Real>& out, const ContactInputOf<Real>& in, const Real& stiffness,
+                                const Real& damping, const Real& cap) {
+  const Real length = norm(in.displacement), elastic = stiffness * length;
+  const auto slides = elastic > cap;
+  const Real keep = select(slides, cap / (elastic + tiny), Real(1.0));
+  out.displacement = keep * in.displacement;
+  out.elastic_tangential = (-stiffness * keep) * in.displacement;
+  out.tangential = out.elastic_tangential - select(slides, Real(0.0), damping) * in.tangential_velocity;
+  out.sliding_loss = cap * (1 - keep) * length;
 }
 
 }  // namespace wedge

@@ -35,8 +35,8 @@ struct WallLosses {
 template <class Law, Friction friction>
 class WallRows {
 public:
-  WallRows(const WallMix<Law>& mix, State& state, double dt, double rolling_damping)
-      : mix_(mix), state_(state), c_(state.wall_contacts), dt_(dt), rolling_damping_(rolling_damping) {}
+  WallRows(const WallMix<Law>& mix, State& state, Reactions& reactions, const ForceStep& step)
+      : mix_(mix), state_(state), reactions_(reactions), c_(state.wall_contacts), dt_(step.dt), rolling_damping_(step.rolling_damping) {}
 
   void evaluate(Index i, Index begin, Index end, WallLosses& losses) const {
     for (Index k = begin; k < end; ++k) meet(i, static_cast<std::size_t>(k));
@@ -83,7 +83,7 @@ private:
   }
 
   void respond(Index i, std::size_t k, WallLosses& losses) const {
-    Particles& p = state_.particles;
+    const Particles& p = state_.particles;
     const auto s = static_cast<std::size_t>(i);
     const Vec3 n = c_.force.get(k), before = c_.normal.get(k);
     c_.normal.set(k, n);
@@ -102,9 +102,9 @@ private:
     const int wall = state_.vessel.carrier(c_.feature[k]);
     const auto coefficients = mix_.coefficients(p.material[s], state_.vessel, wall);
     const double lever = p.radius[s] - c_.overlap[k];
-    const Vec3 w = friction == Friction::none ? Vec3{} : p.angular_velocity_seen.get(s);
+    const Vec3 w = friction == Friction::none ? Vec3{} : p.seen[s].angular_velocity;
     const Vec3 wall_velocity = state_.vessel.surface_velocity(wall, p.position.get(s) + lever * n);
-    const Vec3 v = p.velocity_seen.get(s) - wall_velocity + lever * cross(w, n);
+    const Vec3 v = p.seen[s].velocity - wall_velocity + lever * cross(w, n);
 
     ContactInput in{c_.overlap[k], p.radius[s], p.mass[s], dot(v, n), {}, {}};
     if constexpr (friction != Friction::none) {
@@ -119,27 +119,28 @@ private:
     const Vec3 torque = lever * cross(n, tangential);
     c_.force.set(k, force);
     c_.torque.set(k, torque);
-    p.force.set(s, p.force.get(s) + force);
     losses.contact.normal_damping += (out.normal - out.elastic_normal) * in.approach_velocity * dt_;
     losses.wall_work += dt_ * dot(force, wall_velocity);
     if constexpr (friction != Friction::none) {
-      p.torque.set(s, p.torque.get(s) + torque);
       c_.history.set(k, out.displacement + (0.5 * dt_) * in.tangential_velocity);
       losses.contact.tangential_work -= dt_ * dot(out.elastic_tangential, in.tangential_velocity);
       losses.contact.tangential_damping +=
           dt_ * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
       losses.contact.sliding += out.sliding_loss;
     }
-    if constexpr (friction == Friction::rolling) p.rolling_cap[s] += coefficients.rolling * std::fabs(out.normal);
+    double* const sum = reactions_.sum(i);
+    const double felt[] = {force.x, force.y, force.z, torque.x, torque.y, torque.z};
+    for (int c = 0; c < 6; ++c) sum[c] += felt[c];
+    if constexpr (friction == Friction::rolling) sum[6] += coefficients.rolling * std::fabs(out.normal);
     if constexpr (has_couples(friction)) add_couple(i, k, coefficients.rolling, out, before, losses);
   }
 
   /// Rolling couple of grain i on the wall of row k, added to the torque. The wall has no inertia to share.
   void add_couple(Index i, std::size_t k, double rolling, const ContactResponse& response, Vec3 before,
                   WallLosses& losses) const {
-    Particles& p = state_.particles;
+    const Particles& p = state_.particles;
     const auto s = static_cast<std::size_t>(i);
-    const Vec3 n = c_.normal.get(k), w = p.angular_velocity_seen.get(s);
+    const Vec3 n = c_.normal.get(k), w = p.seen[s].angular_velocity;
     const Vec3 wall_spin{0, 0, state_.vessel.wall(state_.vessel.carrier(c_.feature[k])).spin};
     RollingInput in{
         w - wall_spin,   n, std::fabs(response.normal), response.elastic_normal / c_.overlap[k], rolling, 0,
@@ -157,29 +158,33 @@ private:
       c_.rolling_moment.set(k, spring.moment);
     }
     c_.torque.set(k, c_.torque.get(k) + couple);
-    p.torque.set(s, p.torque.get(s) + couple);
+    double* const sum = reactions_.sum(i);
+    sum[3] += couple.x;
+    sum[4] += couple.y;
+    sum[5] += couple.z;
     losses.contact.rolling -= dt_ * dot(couple, in.spin);
     losses.wall_work += dt_ * dot(couple, wall_spin);
   }
 
   const WallMix<Law>& mix_;
   State& state_;
+  Reactions& reactions_;
   WallContactTable& c_;
   double dt_, rolling_damping_;
 };
 
-/// Pre: reduce_forces and fold_images ran; dt as in evaluate_contacts.
-/// Post: wall forces are in the table and added to force, torque and rolling_cap of the grains.
+/// Pre: fold_reactions ran; dt as in evaluate_contacts.
+/// Post: wall forces are in the table and added to the sums of the grains.
 /// Throws PhysicsError when a grain's centre has gone through a wall.
 template <class Law, Friction friction>
-void evaluate_walls(const WallMix<Law>& mix, State& state, double dt, double rolling_damping) {
+void evaluate_walls(const WallMix<Law>& mix, State& state, Reactions& reactions, double dt, double rolling_damping) {
   const WallContactTable& c = state.wall_contacts;
   const auto grains = static_cast<Index>(c.grain.size());
   const WallLosses sum = reduce_blocks(
       grains, WallLosses{},
       [&](Index begin, Index end) {
         WallLosses losses;
-        const WallRows<Law, friction> rows(mix, state, dt, rolling_damping);
+        const WallRows<Law, friction> rows(mix, state, reactions, {dt, rolling_damping});
         for (Index g = begin; g < end; ++g) {
           const auto s = static_cast<std::size_t>(g);
           rows.evaluate(c.grain[s], c.begin[s], c.begin[s + 1], losses);
@@ -187,20 +192,12 @@ void evaluate_walls(const WallMix<Law>& mix, State& state, double dt, double rol
         return losses;
       },
       [](WallLosses a, const WallLosses& b) {
-        a.contact.normal_damping += b.contact.normal_damping;
-        a.contact.tangential_damping += b.contact.tangential_damping;
-        a.contact.sliding += b.contact.sliding;
-        a.contact.tangential_work += b.contact.tangential_work;
-        a.contact.rolling += b.contact.rolling;
+        a.contact = a.contact + b.contact;
         a.wall_work += b.wall_work;
         a.crossed = std::max(a.crossed, b.crossed);
         return a;
       });
-  state.energy.normal_damping += sum.contact.normal_damping;
-  state.energy.tangential_damping += sum.contact.tangential_damping;
-  state.energy.sliding += sum.contact.sliding;
-  state.energy.tangential_work += sum.contact.tangential_work;
-  state.energy.rolling += sum.contact.rolling;
+  book(sum.contact, state.energy);
   state.energy.wall_work += sum.wall_work;
   if (sum.crossed >= 0) {
     const auto s = static_cast<std::size_t>(sum.crossed);

@@ -119,28 +119,32 @@ void bin_images(const State& state, NeighbourScratch& s) {
   for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
 }
 
-/// Keeps identity, history and normal of the rows that touch: all that the next list can want of this one.
+/// Keeps identity, history and normal of the rows that store something: all that the next list can want of this one.
 void set_aside(const ContactTable& c, NeighbourScratch& s) {
   const auto grains = static_cast<Index>(c.row_begin.size()) - 1;
+  const bool moments = c.rolling_moment.size() == at(c.rows());
+  const auto some = [](Vec3 v) { return v.x != 0 || v.y != 0 || v.z != 0; };
+  const auto stores = [&](std::size_t k) {
+    return some(c.history.get(k)) || (moments && some(c.rolling_moment.get(k)));
+  };
   s.old_row_begin.assign(at(std::max(grains, 0)) + 1, 0);
   for_each(grains, [&](Index i) {
-    Index touching = 0;
-    for (Index k = c.row_begin[at(i)]; k < c.row_begin[at(i) + 1]; ++k) touching += c.half_overlap(at(k)) > 0;
-    s.old_row_begin[at(i) + 1] = touching;
+    Index kept = 0;
+    for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) kept += stores(k);
+    s.old_row_begin[at(i) + 1] = kept;
   });
   std::partial_sum(s.old_row_begin.begin(), s.old_row_begin.end(), s.old_row_begin.begin());
   const Index rows = s.old_row_begin.back();
   for (Array<double>* field :
        {&s.old_history.x, &s.old_history.y, &s.old_history.z, &s.old_normal.x, &s.old_normal.y, &s.old_normal.z})
     resize_with_room(*field, rows);
-  const bool moments = c.rolling_moment.size() == at(c.rows());
   s.old_rolling_moment.resize(moments ? at(rows) : 0);
   resize_with_room(s.old_partner, rows);
   resize_with_room(s.old_turn, rows);
   for_each(grains, [&](Index i) {
     std::size_t to = at(s.old_row_begin[at(i)]);
     for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) {
-      if (!(c.half_overlap(k) > 0)) continue;
+      if (!stores(k)) continue;
       s.old_partner[to] = c.partner_id[k];
       s.old_turn[to] = c.turn[k];
       s.old_history.set(to, c.history.get(k));
@@ -206,33 +210,6 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
   }
 }
 
-/// Lists for each slot the rows in which it is `second`.
-void index_incoming(State& state, AxisRule axis) {
-  ContactTable& c = state.contacts;
-  const Index n = state.particles.count();
-  const auto slots = at(n + state.images.count());
-  const int order = state.symmetry.order();
-  const Particles& p = state.particles;
-  const auto no_reaction = [&](Index k) {
-    if (c.second[at(k)] < n) return false;
-    const std::size_t i = at(c.first[at(k)]);
-    if (axis == AxisRule::pin && on_axis(p.position.x[i], p.position.y[i], p.radius[i])) return true;
-    // A grain and its own copy half a turn away: the reaction is the action.
-    return 2 * c.turn[at(k)] == order && state.images.owner[at(c.second[at(k)] - n)] == c.first[at(k)];
-  };
-  c.incoming_begin.assign(slots + 1, 0);
-  for (Index k = 0; k < c.rows(); ++k)
-    if (!no_reaction(k)) ++c.incoming_begin[at(c.second[at(k)]) + 1];
-  std::partial_sum(c.incoming_begin.begin(), c.incoming_begin.end(), c.incoming_begin.begin());
-  resize_with_room(c.incoming, c.incoming_begin.back());
-  for (Index k = c.rows() - 1; k >= 0; --k) {  // backwards, filling each list from its end, and end where it begins
-    if (!no_reaction(k)) c.incoming[at(--c.incoming_begin[at(c.second[at(k)]) + 1])] = k;
-  }
-  // Now entry s+1 holds the begin of s: shift by one.
-  for (std::size_t s = 0; s < slots; ++s) c.incoming_begin[s] = c.incoming_begin[s + 1];
-  c.incoming_begin[slots] = static_cast<Index>(c.incoming.size());
-}
-
 }  // namespace
 
 void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules) {
@@ -264,7 +241,6 @@ void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rul
   ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
   const Index couples = rules.couples ? rows : 0;  // none of a bed that was taken over from a run with couples
   ContactTable::for_each_couple_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, couples); });
-  resize_with_room(c.outcome, rows * static_cast<Index>(ContactTable::outcome_size));
   for_each_block(block_count(n), [&](Index b) {
     const Found& f = found[at(b)];
     const Index* next = f.second.data();
@@ -274,7 +250,6 @@ void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rul
       next += f.rows_of_grain[g];
     }
   });
-  index_incoming(state, rules.axis);
 }
 
 }  // namespace wedge

@@ -7,14 +7,24 @@
 namespace wedge {
 
 struct HertzMindlin {
-  struct Coefficients {
-    double young;                               // E*, Pa
-    double shear;                               // G*, Pa
-    double sliding;                             // mu_s
-    double rolling;                             // mu_r, m
-    double damping_normal, damping_tangential;  // ratios of critical
-    double lowest_normal;                       // N
+  template <class Real>
+  struct CoefficientsOf {
+    Real young; // E*, Pa
+    Real shear; // G*, Pa
+    Real sliding; // mu_s
+    Real rolling; // mu_r, m
+    Real damping_normal; // ratio of critical
+    Real damping_tangential; // ratio of critical
+    Real lowest_normal; // N
+
+    /// Each coefficient from `get`, called with the member of Coefficients.
+    template <class Get>
+    static CoefficientsOf from(Get&& get) {
+      using One = CoefficientsOf<double>;
+      return {get(&One::young), get(&One::shear), get(&One::sliding), get(&One::rolling), get(&One::damping_normal), get(&One::damping_tangential), get(&One::lowest_normal)};
+    }
   };
+  using Coefficients = CoefficientsOf<double>;
 
   static Coefficients prepare(const Material& a, const Material& b, const Interaction& c,
                               const ContactModel& model) {
@@ -27,25 +37,19 @@ struct HertzMindlin {
 
   static void remove_friction(Coefficients& c) { c.sliding = c.rolling = 0; }
 
-  static ContactResponse respond(const Coefficients& c, const ContactInput& in) {
-    ContactResponse out;
-    const double root = std::sqrt(in.effective_radius * in.overlap);
-    const double normal_stiffness = 2 * c.young * root;  // tangent: d f_cn / d dn
+  template <class Number, class Real>
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c, const ContactInputOf<Real>& in) {
+    using std::max, std::sqrt;
+    ContactResponseOf<Real> out;
+    const Real root = sqrt(in.effective_radius * in.overlap);
+    const Real normal_stiffness = 2 * c.young * root;  // tangent: d f_cn / d dn
     out.elastic_normal = (2.0 / 3.0) * normal_stiffness * in.overlap;
-    const double normal_damping = 2 * c.damping_normal * std::sqrt(in.effective_mass * normal_stiffness);
-    out.normal = std::max(c.lowest_normal, out.elastic_normal + normal_damping * in.approach_velocity);
+    const Real normal_damping = 2 * c.damping_normal * sqrt(in.effective_mass * normal_stiffness);
+    out.normal = max(Real(c.lowest_normal), out.elastic_normal + normal_damping * in.approach_velocity);
 
-    const double stiffness = 8 * c.shear * root;
-    const double damping = 2 * c.damping_tangential * std::sqrt(in.effective_mass * stiffness);
-    const double cap = c.sliding * out.elastic_normal;
-    const double length = std::sqrt(dot(in.displacement, in.displacement));
-    const double elastic = stiffness * length;
-    const bool slides = elastic > cap;
-    const double keep = slides ? cap / (elastic + tiny) : 1.0;
-    out.displacement = keep * in.displacement;
-    out.elastic_tangential = (-stiffness * keep) * in.displacement;
-    out.tangential = out.elastic_tangential - (slides ? 0.0 : damping) * in.tangential_velocity;
-    out.sliding_loss = cap * (1 - keep) * length;
+    const Real stiffness = 8 * c.shear * root;
+    const Real damping = 2 * c.damping_tangential * sqrt(in.effective_mass * stiffness);
+    limit_sliding(out, in, stiffness, damping, c.sliding * out.elastic_normal);
     return out;
   }
 

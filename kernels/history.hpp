@@ -1,22 +1,26 @@
-// history.hpp: how a stored tangential displacement is carried along with its contact.
+// history.hpp: how a stored tangential displacement is carried along with its contact. For one contact or a pack.
 #pragma once
 
-#include "core/vec3.hpp"
+#include "core/pack.hpp"
 
 namespace wedge {
 
 /// Turns a vector that is perpendicular to the unit vector `before` by the smallest rotation that takes `before` to
 /// the unit vector `now`: u - (before + now) (now . u) / (1 + before . now). Exact; keeps the length.
-inline Vec3 follow_normal(Vec3 u, Vec3 before, Vec3 now) {
-  const double factor = dot(now, u) / (1 + dot(before, now));
+template <class Real>
+WEDGE_INLINE Vector3<Real> follow_normal(const Vector3<Real>& u, const Vector3<Real>& before,
+                                         const Vector3<Real>& now) {
+  const Real factor = dot(now, u) / (1 + dot(before, now));
   return u - factor * (before + now);
 }
 
 /// Turns u, perpendicular to the unit vector n, about n by the angle 2 atan(half_angle) ~ 2 half_angle.
 /// The Cayley form of a rotation: keeps the length exactly, the angle to third order.
-inline Vec3 spin_about_normal(Vec3 u, Vec3 n, double half_angle) {
-  const double square = half_angle * half_angle;
-  const double scale = 1 / (1 + square);
+template <class Real>
+WEDGE_INLINE Vector3<Real> spin_about_normal(const Vector3<Real>& u, const Vector3<Real>& n,
+                                             const plain_t<Real>& half_angle) {
+  const Real square = half_angle * half_angle;
+  const Real scale = 1 / (1 + square);
   return (scale * (1 - square)) * u + (2 * half_angle * scale) * cross(n, u);
 }
 
@@ -25,10 +29,15 @@ inline Vec3 spin_about_normal(Vec3 u, Vec3 n, double half_angle) {
 /// and all the time since first touch, overlap over approach velocity [m/s], for a new one. A contact is new when
 /// nothing is stored; one that was there and has never slipped grows from zero velocity, so the difference is of
 /// order dt^2.
-inline double slip_time(Vec3 stored, double overlap, double approach_velocity, double dt) {
-  const bool is_new = stored.x == 0 && stored.y == 0 && stored.z == 0;
-  const double since_touch = approach_velocity * dt > overlap ? overlap / approach_velocity : dt;
-  return is_new ? since_touch : 0.5 * dt;
+template <class Real>
+WEDGE_INLINE Real slip_time(const Vector3<Real>& stored, const Real& overlap, const Real& approach_velocity,
+                            double dt) {
+  const auto is_new = stored.x == 0 && stored.y == 0 && stored.z == 0 && overlap > 0;
+  const Real half_step(0.5 * dt);
+  if (__builtin_expect(!any_of(is_new), 1)) return half_step;  // few contacts are new
+  const Real whole_step(dt);
+  const Real since_touch = select(approach_velocity * dt > overlap, overlap / approach_velocity, whole_step);
+  return select(is_new, since_touch, half_step);
 }
 
 }  // namespace wedge

@@ -64,8 +64,8 @@ void make_images(State& state, AxisRule axis) {
     }
   }
   const auto slots = static_cast<std::size_t>(n + images.count());
-  for (Vec3Array* field : {&p.position, &p.velocity_seen, &p.angular_velocity_seen})
-    for (Array<double>* component : {&field->x, &field->y, &field->z}) resize_with_room(*component, slots);
+  for (Array<double>* component : {&p.position.x, &p.position.y, &p.position.z}) resize_with_room(*component, slots);
+  resize_with_room(p.seen, slots);
   resize_with_room(p.radius, slots);
   resize_with_room(p.mass, slots);
   resize_with_room(p.material, slots);
@@ -88,9 +88,13 @@ void refresh_images(State& state) {
     const auto image = static_cast<std::size_t>(n + m),
                owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
     const int k = images.turn[static_cast<std::size_t>(m)];
-    p.position.set(image, symmetry.turn_point(p.position.get(owner), k));
-    p.velocity_seen.set(image, symmetry.turn_vector(p.velocity_seen.get(owner), k));
-    p.angular_velocity_seen.set(image, symmetry.turn_vector(p.angular_velocity_seen.get(owner), k));
+    const Seen& original = p.seen[owner];
+    Seen& copy = p.seen[image];
+    copy = original;
+    copy.position = symmetry.turn_point(original.position, k);
+    copy.velocity = symmetry.turn_vector(original.velocity, k);
+    copy.angular_velocity = symmetry.turn_vector(original.angular_velocity, k);
+    p.position.set(image, copy.position);
   });
 }
 

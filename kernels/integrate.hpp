@@ -5,7 +5,9 @@
 #include "core/parallel.hpp"
 #include "core/state.hpp"
 #include "kernels/contact_law.hpp"
-#include "kernels/evaluate_contacts.hpp"
+#include "kernels/friction.hpp"
+#include "kernels/reactions.hpp"
+#include "kernels/slab.hpp"
 
 namespace wedge {
 
@@ -62,22 +64,25 @@ inline Vec3 spun(Vec3 w, Vec3 t, double cap, double inertia, double h, double& l
 }
 inline Vec3 spun_freely(Vec3 w, Vec3 t, double inertia, double h) { return w + (h / inertia) * t; }
 
-/// Radius, mass and inertia of grain i; constants when all grains are alike.
+/// Radius, mass and material of grain i; constants when all grains are alike.
 struct UniformBodies {
   double radius_, mass_;
+  std::int32_t material_;
   double radius(Index) const { return radius_; }
   double mass(Index) const { return mass_; }
+  double material(Index) const { return material_; }
 };
 struct GeneralBodies {
   const double *radius_, *mass_;
+  const std::int32_t* material_;
   double radius(Index i) const { return radius_[i]; }
   double mass(Index i) const { return mass_[i]; }
+  double material(Index i) const { return material_[i]; }
 };
 
 struct KickArrays {
-  double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz;  // state
-  double *sx, *sy, *sz, *ox, *oy, *oz;              // seen: velocity, angular velocity
-  const double *fx, *fy, *fz, *tx, *ty, *tz, *cap;
+  double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz;
+  double *fx, *fy, *fz, *tx, *ty, *tz, *cap;
   const double *rx, *ry, *rz, *margin;
 };
 
@@ -91,12 +96,6 @@ inline KickArrays kick_arrays(Particles& p) {
           p.angular_velocity.x.data(),
           p.angular_velocity.y.data(),
           p.angular_velocity.z.data(),
-          p.velocity_seen.x.data(),
-          p.velocity_seen.y.data(),
-          p.velocity_seen.z.data(),
-          p.angular_velocity_seen.x.data(),
-          p.angular_velocity_seen.y.data(),
-          p.angular_velocity_seen.z.data(),
           p.force.x.data(),
           p.force.y.data(),
           p.force.z.data(),
@@ -110,17 +109,15 @@ inline KickArrays kick_arrays(Particles& p) {
           p.list_margin.data()};
 }
 
-/// The half kick of grain i with the forces in memory; returns the new velocities.
+/// The half kick of grain i at place x with the forces in memory; v and w become the new velocities.
 template <Friction friction, AxisAction axis, class Bodies>
-__attribute__((always_inline)) inline void half_kick(const Bodies& b, const KickArrays& a, Index i, Vec3 g,
-                                                     double h, Vec3& v, Vec3& w, double& rolling,
-                                                     double& axis_loss) {
+WEDGE_INLINE void half_kick(const Bodies& b, const KickArrays& a, Index i, Vec3 g, double h, Vec3 x, Vec3& v, Vec3& w,
+                            double& rolling, double& axis_loss) {
   const double mass = b.mass(i), radius = b.radius(i);
   const Vec3 free = kicked(v, {a.fx[i], a.fy[i], a.fz[i]}, g, mass, h);
   if constexpr (axis == AxisAction::none) {
     v = free;
   } else {
-    const Vec3 x{a.x[i], a.y[i], a.z[i]};
     const Vec3 now = axis == AxisAction::clamp ? clamped_at_axis(free, x, radius) : pinned_at_axis(free, x, radius);
     axis_loss += taken(mass, v, free, now);
     v = now;
@@ -132,12 +129,34 @@ __attribute__((always_inline)) inline void half_kick(const Bodies& b, const Kick
   }
 }
 
+/// What contacts will see of a slab of grains, in columns.
+struct SeenColumns {
+  Column number[seen_size];
+
+  /// Writes the first `count` of them as records.
+  void write(Seen* to, Index count) const {
+    for (Index row = 0; row < count; row += 8) {
+      Eight columns[8], motion[8], spin[8];
+      for (std::size_t c = 0; c < 8; ++c) columns[c] = *reinterpret_cast<const Eight*>(number[c].number + row);
+      transpose(columns, motion);
+      for (std::size_t c = 0; c < 4; ++c) columns[c] = *reinterpret_cast<const Eight*>(number[8 + c].number + row);
+      transpose(columns, spin);
+      for (Index r = 0; r < std::min<Index>(8, count - row); ++r) {
+        *reinterpret_cast<UnalignedEight*>(&to[row + r]) = motion[r];
+        *reinterpret_cast<Four*>(&to[row + r].angular_velocity) =
+            __builtin_shufflevector(spin[r], spin[r], 0, 1, 2, 3);
+      }
+    }
+  }
+};
+
 /// First half of a step: kick by dt/2, drift by dt, predict the velocities that contacts will see at the new time.
 /// Returns whether the neighbour list went stale: a grain left the margin it had when the list was made (or is not
 /// a number).
 template <Friction friction, AxisAction axis, class Bodies>
 bool kick_and_drift(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
   const KickArrays arrays = kick_arrays(state.particles);
+  Seen* const seen = state.particles.seen.data();
   struct Result {
     double rolling = 0, at_axis = 0, left = 0;
   };
@@ -148,41 +167,43 @@ bool kick_and_drift(const Bodies& bodies, State& state, Vec3 gravity, double dt)
         const Bodies b = bodies;
         const double h = 0.5 * dt;
         double rolling = 0, axis_loss = 0, left = 0;
-        WEDGE_SIMD_SUM(rolling, axis_loss, left)
-        for (Index i = begin; i < end; ++i) {
-          Vec3 v{a.vx[i], a.vy[i], a.vz[i]}, w{};
-          if constexpr (friction != Friction::none) w = {a.wx[i], a.wy[i], a.wz[i]};
-          double r = 0, s = 0;
-          half_kick<friction, axis>(b, a, i, gravity, h, v, w, r, s);
-          rolling += r;
-          axis_loss += s;
-          a.vx[i] = v.x;
-          a.vy[i] = v.y;
-          a.vz[i] = v.z;
-          a.x[i] += dt * v.x;
-          a.y[i] += dt * v.y;
-          a.z[i] += dt * v.z;
-          if constexpr (friction != Friction::none) {
-            a.wx[i] = w.x;
-            a.wy[i] = w.y;
-            a.wz[i] = w.z;
+        SeenColumns s;
+        for (Index from = begin; from < end; from += slab_size) {
+          const Index count = std::min(slab_size, end - from);
+          WEDGE_SIMD_SUM(rolling, axis_loss, left)
+          for (Index row = 0; row < count; ++row) {
+            const Index i = from + row;
+            Vec3 x{a.x[i], a.y[i], a.z[i]}, v{a.vx[i], a.vy[i], a.vz[i]}, w{};
+            if constexpr (friction != Friction::none) w = {a.wx[i], a.wy[i], a.wz[i]};
+            double r = 0, l = 0;
+            half_kick<friction, axis>(b, a, i, gravity, h, x, v, w, r, l);
+            rolling += r;
+            axis_loss += l;
+            a.vx[i] = v.x;
+            a.vy[i] = v.y;
+            a.vz[i] = v.z;
+            x += dt * v;
+            a.x[i] = x.x;
+            a.y[i] = x.y;
+            a.z[i] = x.z;
+            if constexpr (friction != Friction::none) {
+              a.wx[i] = w.x;
+              a.wy[i] = w.y;
+              a.wz[i] = w.z;
+            }
+            double unbooked = 0;
+            half_kick<friction, axis>(b, a, i, gravity, h, x, v, w, unbooked, unbooked);
+            const double shown[seen_size] = {x.x, x.y, x.z, v.x, v.y, v.z, b.radius(i), b.mass(i),
+                                             w.x, w.y, w.z, b.material(i)};
+            for (std::size_t c = 0; c < seen_size; ++c) s.number[c].number[row] = shown[c];
+            const Vec3 way{x.x - a.rx[i], x.y - a.ry[i], x.z - a.rz[i]};
+            left += dot(way, way) <= a.margin[i] * a.margin[i] ? 0.0 : 1.0;
+            if constexpr (axis == AxisAction::pin) {  // who is newly on the axis meets others than before
+              const double radius = b.radius(i);
+              left += on_axis(x.x, x.y, radius) && !on_axis(a.rx[i], a.ry[i], radius) ? 1.0 : 0.0;
+            }
           }
-          double unbooked = 0;
-          half_kick<friction, axis>(b, a, i, gravity, h, v, w, unbooked, unbooked);
-          a.sx[i] = v.x;
-          a.sy[i] = v.y;
-          a.sz[i] = v.z;
-          if constexpr (friction != Friction::none) {
-            a.ox[i] = w.x;
-            a.oy[i] = w.y;
-            a.oz[i] = w.z;
-          }
-          const Vec3 way{a.x[i] - a.rx[i], a.y[i] - a.ry[i], a.z[i] - a.rz[i]};
-          left += dot(way, way) <= a.margin[i] * a.margin[i] ? 0.0 : 1.0;
-          if constexpr (axis == AxisAction::pin) {  // who is newly on the axis meets others than before
-            const double radius = b.radius(i);
-            left += on_axis(a.x[i], a.y[i], radius) && !on_axis(a.rx[i], a.ry[i], radius) ? 1.0 : 0.0;
-          }
+          s.write(seen + from, count);
         }
         return Result{rolling, axis_loss, left};
       },
@@ -194,9 +215,26 @@ bool kick_and_drift(const Bodies& bodies, State& state, Vec3 gravity, double dt)
   return result.left > 0;
 }
 
-/// Second half of a step: kick by dt/2 with the new forces.
+/// Puts the sums of grains [from, from + count) into force, torque and rolling_cap.
+template <Friction friction>
+void take_sums(const Reactions& reactions, const KickArrays& a, Index from, Index count) {
+  const auto* sums = reinterpret_cast<const Eight*>(reactions.sum(from));
+  double* const to[] = {a.fx, a.fy, a.fz, a.tx, a.ty, a.tz, a.cap};
+  constexpr std::size_t numbers = friction == Friction::none ? 3 : friction == Friction::rolling ? 7 : 6;
+  Index row = 0;
+  for (; row + 8 <= count; row += 8) {
+    Eight records[8], columns[8];
+    for (Index r = 0; r < 8; ++r) records[r] = sums[row + r];
+    transpose(records, columns);
+    for (std::size_t c = 0; c < numbers; ++c) *reinterpret_cast<UnalignedEight*>(to[c] + from + row) = columns[c];
+  }
+  for (; row < count; ++row)
+    for (std::size_t c = 0; c < numbers; ++c) to[c][from + row] = sums[row][c];
+}
+
+/// Second half of a step: takes the new forces from the sums, and kicks by dt/2.
 template <Friction friction, AxisAction axis, class Bodies>
-void kick(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
+void kick(const Bodies& bodies, State& state, const Reactions& reactions, Vec3 gravity, double dt) {
   const KickArrays arrays = kick_arrays(state.particles);
   const KickLosses losses = reduce_blocks(
       state.particles.count(), KickLosses{},
@@ -204,14 +242,15 @@ void kick(const Bodies& bodies, State& state, Vec3 gravity, double dt) {
         const KickArrays a = arrays;
         const Bodies b = bodies;
         double rolling = 0, axis_loss = 0;
+        take_sums<friction>(reactions, a, begin, end - begin);
         WEDGE_SIMD_SUM(rolling, axis_loss)
         for (Index i = begin; i < end; ++i) {
           Vec3 v{a.vx[i], a.vy[i], a.vz[i]}, w{};
           if constexpr (friction != Friction::none) w = {a.wx[i], a.wy[i], a.wz[i]};
-          double r = 0, s = 0;
-          half_kick<friction, axis>(b, a, i, gravity, 0.5 * dt, v, w, r, s);
+          double r = 0, l = 0;
+          half_kick<friction, axis>(b, a, i, gravity, 0.5 * dt, {a.x[i], a.y[i], a.z[i]}, v, w, r, l);
           rolling += r;
-          axis_loss += s;
+          axis_loss += l;
           a.vx[i] = v.x;
           a.vy[i] = v.y;
           a.vz[i] = v.z;

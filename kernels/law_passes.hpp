@@ -5,6 +5,8 @@
 
 #include "core/scene.hpp"
 #include "core/state.hpp"
+#include "kernels/friction.hpp"
+#include "kernels/reactions.hpp"
 
 namespace wedge {
 
@@ -14,14 +16,13 @@ struct ElasticEnergy {
 
 /// What varies from scene to scene; every member is chosen before the first step and calls a loop without options.
 struct LawPasses {
-  std::function<void(State&, double dt)> evaluate_contacts;
-  std::function<void(State&, double dt)> evaluate_walls;
+  std::function<void(State&, Reactions&, double dt)> evaluate_contacts;
+  std::function<void(State&, Reactions&, double dt)> evaluate_walls;
+  std::function<Vec3Array(const State&)> contact_forces;  // see contact_forces.hpp
   /// Elastic energy of all contacts for which `counts(slot of a grain)` holds for either grain; every contact if
   /// empty.
   std::function<ElasticEnergy(const State&, const std::function<bool(Index)>& counts)> elastic_energy;
 };
-
-enum class Friction;
 
 /// Pre: all grains of `state` stay as uniform as they are now: `uniform` says that radius and material are one.
 template <class Law>

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "kernels/contact_forces.hpp"
 #include "kernels/count_contacts.hpp"
 #include "kernels/evaluate_contacts.hpp"
 #include "kernels/evaluate_walls.hpp"
@@ -33,7 +34,8 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
   ElasticEnergy sum;
   for (Index k = 0; k < c.rows(); ++k) {
     const auto r = static_cast<std::size_t>(k);
-    if (!(c.half_overlap(r) > 0)) continue;
+    const double depth = row_overlap(state, r);
+    if (!(depth > 0)) continue;
     const auto i = static_cast<std::size_t>(c.first[r]), j = static_cast<std::size_t>(c.second[r]);
     const Index n = p.count();
     const Index owner = c.second[r] < n ? c.second[r] : state.images.owner[j - static_cast<std::size_t>(n)];
@@ -42,9 +44,9 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
     const double mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
     const auto& coefficients = table(p.material[i], p.material[j]);
     const bool shared = owner == c.first[r] && 2 * c.turn[r] == state.symmetry.order();
-    const double part = shared ? 0.5 : 1.0, overlap = 2 * c.half_overlap(r);
-    sum.normal += part * Law::normal_energy(coefficients, radius, mass, overlap);
-    sum.tangential += part * Law::tangential_energy(coefficients, radius, mass, overlap, norm(c.history.get(r)));
+    const double part = shared ? 0.5 : 1.0;
+    sum.normal += part * Law::normal_energy(coefficients, radius, mass, depth);
+    sum.tangential += part * Law::tangential_energy(coefficients, radius, mass, depth, norm(c.history.get(r)));
   }
   const WallContactTable& w = state.wall_contacts;
   for (std::size_t g = 0; g < w.grain.size(); ++g) {
@@ -98,21 +100,21 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
         constexpr bool books = decltype(with_budget)::value;
         constexpr bool compared =
             is_total_coulomb<Law> || has_couples(need);  // for comparison: no loop of their own
-        passes.evaluate_walls = [walls, damping](State& s, double dt) {
-          evaluate_walls<Law, need>(walls, s, dt, damping);
+        passes.evaluate_walls = [walls, damping](State& s, Reactions& r, double dt) {
+          evaluate_walls<Law, need>(walls, s, r, dt, damping);
         };
+        passes.contact_forces = [table](const State& s) { return contact_forces<Law>(table, need, s); };
         if constexpr (decltype(one_kind)::value && !compared) {
           const int m = state.particles.material[0];
           const UniformMix<Law> mix{state.particles.radius[0], state.particles.mass[0], table(m, m)};
-          passes.evaluate_contacts = [mix, damping](State& s, double dt) {
-            evaluate_contacts<Law, need, books>(mix, s, dt, damping);
+          passes.evaluate_contacts = [mix, damping](State& s, Reactions& r, double dt) {
+            evaluate_contacts<Law, need, books>(mix, s, r, dt, damping);
           };
         } else {
-          passes.evaluate_contacts = [table, damping](State& s, double dt) {
+          passes.evaluate_contacts = [table, damping](State& s, Reactions& r, double dt) {
             if constexpr (need == Friction::relative) count_contacts(s);
-            const GeneralMix<Law> mix{s.particles.radius.data(), s.particles.mass.data(),
-                                      s.particles.material.data(), table.entries().data()};
-            evaluate_contacts<Law, need, books || compared>(mix, s, dt, damping);
+            const GeneralMix<Law> mix{table.entries().data()};
+            evaluate_contacts<Law, need, books || compared>(mix, s, r, dt, damping);
           };
         }
       },

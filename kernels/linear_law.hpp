@@ -8,15 +8,25 @@
 namespace wedge {
 
 struct LinearLaw {
-  struct Coefficients {
-    double stiffness;           // N/m, k_n when it is given
-    double stiffness_per_mass;  // 1/s2, k_n / m* when the contact time is given: (pi^2 + ln^2 e) / t_c^2
-    double tangential_ratio;    // k_t / k_n
-    double sliding;             // mu_s
-    double rolling;             // mu_r, m
-    double damping_normal, damping_tangential;  // ratios of critical
-    double lowest_normal;                       // N
+  template <class Real>
+  struct CoefficientsOf {
+    Real stiffness; // N/m, k_n when it is given
+    Real stiffness_per_mass; // 1/s2, k_n / m* when the contact time is given: (pi^2 + ln^2 e) / t_c^2
+    Real tangential_ratio; // k_t / k_n
+    Real sliding; // mu_s
+    Real rolling; // mu_r, m
+    Real damping_normal; // ratio of critical
+    Real damping_tangential; // ratio of critical
+    Real lowest_normal; // N
+
+    /// Each coefficient from `get`, called with the member of Coefficients.
+    template <class Get>
+    static CoefficientsOf from(Get&& get) {
+      using One = CoefficientsOf<double>;
+      return {get(&One::stiffness), get(&One::stiffness_per_mass), get(&One::tangential_ratio), get(&One::sliding), get(&One::rolling), get(&One::damping_normal), get(&One::damping_tangential), get(&One::lowest_normal)};
+    }
   };
+  using Coefficients = CoefficientsOf<double>;
 
   static Coefficients prepare(const Material&, const Material&, const Interaction& c, const ContactModel& model) {
     const double c_n =
@@ -35,30 +45,24 @@ struct LinearLaw {
             lowest_normal(model.tension)};
   }
 
-  static double normal_stiffness(const Coefficients& c, double effective_mass) {
+  template <class Number, class Real>
+  static Real normal_stiffness(const CoefficientsOf<Number>& c, const Real& effective_mass) {
     return c.stiffness + c.stiffness_per_mass * effective_mass;
   }
 
   static void remove_friction(Coefficients& c) { c.sliding = c.rolling = 0; }
 
-  static ContactResponse respond(const Coefficients& c, const ContactInput& in) {
-    ContactResponse out;
-    const double k_n = normal_stiffness(c, in.effective_mass);
-    const double critical = 2 * std::sqrt(in.effective_mass * k_n);
+  template <class Number, class Real>
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c, const ContactInputOf<Real>& in) {
+    using std::max, std::sqrt;
+    ContactResponseOf<Real> out;
+    const Real k_n = normal_stiffness(c, in.effective_mass);
+    const Real critical = 2 * sqrt(in.effective_mass * k_n);
     out.elastic_normal = k_n * in.overlap;
-    out.normal = std::max(c.lowest_normal, out.elastic_normal + c.damping_normal * critical * in.approach_velocity);
+    out.normal = max(Real(c.lowest_normal), out.elastic_normal + c.damping_normal * critical * in.approach_velocity);
 
-    const double k_t = c.tangential_ratio * k_n;
-    const double damping = c.damping_tangential * critical * std::sqrt(c.tangential_ratio);
-    const double cap = c.sliding * out.elastic_normal;
-    const double length = std::sqrt(dot(in.displacement, in.displacement));
-    const double elastic = k_t * length;
-    const bool slides = elastic > cap;
-    const double keep = slides ? cap / (elastic + tiny) : 1.0;
-    out.displacement = keep * in.displacement;
-    out.elastic_tangential = (-k_t * keep) * in.displacement;
-    out.tangential = out.elastic_tangential - (slides ? 0.0 : damping) * in.tangential_velocity;
-    out.sliding_loss = cap * (1 - keep) * length;
+    const Real damping = c.damping_tangential * critical * sqrt(c.tangential_ratio);
+    limit_sliding(out, in, Real(c.tangential_ratio * k_n), damping, c.sliding * out.elastic_normal);
     return out;
   }
 

@@ -74,7 +74,7 @@ std::uint64_t state_hash(const State& state) {
     mix(p.velocity.get(i));
     mix(p.angular_velocity.get(i));
     for (auto k = static_cast<std::size_t>(c.row_begin[i]); k < static_cast<std::size_t>(c.row_begin[i + 1]); ++k)
-      if (c.half_overlap(k) > 0) mix(c.history.get(k));
+      if (row_overlap(state, k) > 0) mix(c.history.get(k));
   }
   return hash;
 }

@@ -8,15 +8,24 @@
 namespace wedge {
 
 struct MindlinDeresiewicz {
-  struct Coefficients {
-    double young;                       // E*, Pa
-    double sliding;                     // mu_s
-    double rolling;                     // mu_r, m
-    double limit;                       // dt_max / dn = mu_s E* / (4 G*)
-    double damping_normal;              // c_n
-    double damping_tangential_squared;  // 6 c_t^2 (4/3) E* mu_s dn / dt_max, Pa: what is constant under the root
-    double lowest_normal;               // N
+  template <class Real>
+  struct CoefficientsOf {
+    Real young; // E*, Pa
+    Real sliding; // mu_s
+    Real rolling; // mu_r, m
+    Real limit; // dt_max / dn = mu_s E* / (4 G*)
+    Real damping_normal; // c_n
+    Real damping_tangential_squared; // 6 c_t^2 (4/3) E* mu_s dn / dt_max, Pa: what is constant under the root
+    Real lowest_normal; // N
+
+    /// Each coefficient from `get`, called with the member of Coefficients.
+    template <class Get>
+    static CoefficientsOf from(Get&& get) {
+      using One = CoefficientsOf<double>;
+      return {get(&One::young), get(&One::sliding), get(&One::rolling), get(&One::limit), get(&One::damping_normal), get(&One::damping_tangential_squared), get(&One::lowest_normal)};
+    }
   };
+  using Coefficients = CoefficientsOf<double>;
 
   static Coefficients prepare(const Material& a, const Material& b, const Interaction& c,
                               const ContactModel& model) {
@@ -31,33 +40,37 @@ struct MindlinDeresiewicz {
             c.rolling,
             c.sliding * slope,
             c_n,
-            6 * c_t * c_t * (4.0 / 3.0) * young / slope,
+            c.sliding > 0 ? 6 * c_t * c_t * (4.0 / 3.0) * young / slope : 0,
             lowest_normal(model.tension)};
   }
 
-  static void remove_friction(Coefficients& c) { c.sliding = c.rolling = c.limit = 0; }
+  static void remove_friction(Coefficients& c) {
+    c.sliding = c.rolling = c.limit = c.damping_tangential_squared = 0;
+  }
 
-  static ContactResponse respond(const Coefficients& c, const ContactInput& in) {
-    ContactResponse out;
-    const double root = std::sqrt(in.effective_radius * in.overlap);
+  template <class Number, class Real>
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c, const ContactInputOf<Real>& in) {
+    using std::max, std::min, std::sqrt;
+    ContactResponseOf<Real> out;
+    const Real root = sqrt(in.effective_radius * in.overlap);
     out.elastic_normal = (4.0 / 3.0) * c.young * root * in.overlap;
-    const double damping = c.damping_normal * std::sqrt(8 * in.effective_mass * c.young * root);
-    out.normal = std::max(c.lowest_normal, out.elastic_normal + damping * in.approach_velocity);
+    const Real damping = c.damping_normal * sqrt(8 * in.effective_mass * c.young * root);
+    out.normal = max(Real(c.lowest_normal), out.elastic_normal + damping * in.approach_velocity);
 
-    const double length_squared = dot(in.displacement, in.displacement);
-    const double inverse_length = 1 / std::sqrt(length_squared + tiny);
-    const double length = length_squared * inverse_length;
-    const double length_max = c.limit * in.overlap;
-    const double left = std::max(0.0, 1 - length / (length_max + tiny));  // 1 - dt/dt_max
-    const double left_root = std::sqrt(left);
-    const double keep = std::min(1.0, length_max * inverse_length);  // cut back to dt_max
-    const double elastic = c.sliding * out.elastic_normal * (1 - left * left_root);
-    const double viscous =
-        c.sliding > 0 ? std::sqrt(c.damping_tangential_squared * in.effective_mass * root * left_root) : 0.0;
+    const Real length_squared = dot(in.displacement, in.displacement);
+    const Real inverse_length = 1 / sqrt(length_squared + tiny);
+    const Real length = length_squared * inverse_length;
+    const Real length_max = c.limit * in.overlap;
+    const Real left = max(Real(0.0), 1 - length / (length_max + tiny));  // 1 - dt/dt_max
+    const Real left_root = sqrt(left);
+    const Real keep = min(Real(1.0), length_max * inverse_length);  // cut back to dt_max
+    const Real cap = c.sliding * out.elastic_normal;
+    const Real elastic = cap * (1 - left * left_root);
+    const Real viscous = sqrt(c.damping_tangential_squared * in.effective_mass * root * left_root);
     out.displacement = keep * in.displacement;
     out.elastic_tangential = (-elastic * inverse_length) * in.displacement;
     out.tangential = out.elastic_tangential - viscous * in.tangential_velocity;
-    out.sliding_loss = c.sliding * out.elastic_normal * (1 - keep) * length;
+    out.sliding_loss = cap * (1 - keep) * length;
     return out;
   }
 

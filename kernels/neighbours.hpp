@@ -18,6 +18,7 @@ struct NeighbourScratch {
   Array<Index> image_begin, image_order;  // per cell: its images, in image order
   Array<double> real_buffer;
   Array<std::int32_t> whole_buffer;
+  Array<Seen> seen_buffer;
   // The touching contacts of the list before, for carrying histories, by the slots grains had then.
   Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
   Array<std::int32_t> old_partner, old_turn;
@@ -51,7 +52,7 @@ void sort_by_cell(State& state, NeighbourScratch& scratch);
 /// of the images are set; positions and velocities are refreshed.
 void make_images(State& state, AxisRule axis);
 
-/// Moves images with their owners: x, v and w turned by the image's turn. An index-mapped pass.
+/// Moves images with their owners: x, v and w as seen, turned by the image's turn. An index-mapped pass.
 void refresh_images(State& state);
 
 /// Finds all pairs closer than the sum of radii and margins, once each, histories carried over by identity. A grain

@@ -8,55 +8,62 @@
 
 namespace wedge {
 
-/// One contact as rolling resistance sees it. Couples are those on the first body.
-struct RollingInput {
-  Vec3 spin;             // rad/s: angular velocity of the first body less that of the second
-  Vec3 normal;           // unit vector first -> second
-  double load;           // N: size of the total normal force
-  double stiffness;      // N/m: f_cn / dn
-  double rolling;        // m: mu_r
-  double inertia;        // kg m2: effective, for the model at hand
+/// One contact, or a pack of them, as rolling resistance sees it. Couples are those on the first body.
+template <class Real>
+struct RollingInputOf {
+  Vector3<Real> spin;    // rad/s: angular velocity of the first body less that of the second
+  Vector3<Real> normal;  // unit vector first -> second
+  Real load{};           // N: size of the total normal force
+  Real stiffness{};      // N/m: f_cn / dn
+  Real rolling{};        // m: mu_r
+  Real inertia{};        // kg m2: effective, for the model at hand
   double damping_ratio;  // of critical, of the rolling spring
 };
+using RollingInput = RollingInputOf<double>;
 
 /// Constant torque against the relative spin: at most mu_r |f_n|, and never more than half of what would stop the
 /// two bodies within the step. (PHYSICS, section 1, has the whole; but the spin seen is a predicted one, and with
 /// it a couple of c I w / dt has the roots of z^2 - (1 - 3c/2) z - c/2: at c = 1 one of them is -1, a chatter that
 /// never dies.) inertia: I_i I_j / (I_i + I_j), shared by the contacts of the busier body.
-inline Vec3 relative_couple(const RollingInput& in, double dt) {
-  const double speed = std::sqrt(dot(in.spin, in.spin) + tiny);
-  const double most = dt > 0 ? 0.5 * in.inertia * speed / dt : std::numeric_limits<double>::infinity();
-  return (-std::min(in.rolling * in.load, most) / speed) * in.spin;
+template <class Real>
+WEDGE_INLINE Vector3<Real> relative_couple(const RollingInputOf<Real>& in, double dt) {
+  using std::min, std::sqrt;
+  const Real speed = sqrt(dot(in.spin, in.spin) + tiny);
+  Real couple = in.rolling * in.load;
+  if (dt > 0) couple = min(couple, 0.5 * in.inertia * speed / dt);
+  return (-couple / speed) * in.spin;
 }
 
 /// Inertia about the contact point [kg m2] of a sphere, for the damping of the rolling spring.
-inline double rocking_inertia(double mass, double radius) { return (2.0 / 5.0 + 1.0) * mass * radius * radius; }
+template <class Real>
+WEDGE_INLINE Real rocking_inertia(const Real& mass, const Real& radius) {
+  return (2.0 / 5.0 + 1.0) * mass * radius * radius;
+}
 
-struct RollingSpring {
-  Vec3 couple;  // N m
-  Vec3 moment;  // N m: of the spring, half a step ahead (kernels/README.md, "Stored displacement")
+template <class Real>
+struct RollingSpringOf {
+  Vector3<Real> couple;  // N m
+  Vector3<Real> moment;  // N m: of the spring, half a step ahead (kernels/README.md, "Stored displacement")
 };
+using RollingSpring = RollingSpringOf<double>;
 
 /// Elastic-plastic rolling spring, type C of Ai, Chen, Rotter, Ooi (2011), Powder Technol. 206, 269: stiffness
 /// 2.25 k_n mu_r^2 (their mu_r is ours over R*), moment at most mu_r |f_n|, viscous part while below it. Twist
 /// about the normal is free. `moment` is the stored one, carried along with the contact. inertia: 1 / (1/I_i +
 /// 1/I_j) with the inertias about the contact point.
-inline RollingSpring rolling_spring(const RollingInput& in, Vec3 moment, double dt) {
-  const Vec3 rolling = in.spin - dot(in.spin, in.normal) * in.normal;
-  const double stiffness = 2.25 * in.stiffness * in.rolling * in.rolling;
-  const Vec3 half_step = (-0.5 * dt * stiffness) * rolling;
-  const Vec3 free = moment + half_step;
-  const double limit = in.rolling * in.load, size = norm(free);
-  RollingSpring out;
-  if (size < limit) {
-    out.couple = free - (in.damping_ratio * 2 * std::sqrt(in.inertia * stiffness)) * rolling;
-    out.moment = free + half_step;
-  } else {
-    const Vec3 kept = (limit / (size + tiny)) * free;
-    out.couple = kept;
-    out.moment = kept + half_step;
-  }
-  return out;
+template <class Real>
+WEDGE_INLINE RollingSpringOf<Real> rolling_spring(const RollingInputOf<Real>& in, const Vector3<Real>& moment,
+                                                  double dt) {
+  using std::sqrt;
+  const Vector3<Real> rolling = in.spin - dot(in.spin, in.normal) * in.normal;
+  const Real stiffness = 2.25 * in.stiffness * in.rolling * in.rolling;
+  const Vector3<Real> half_step = (-0.5 * dt * stiffness) * rolling;
+  const Vector3<Real> free = moment + half_step;
+  const Real limit = in.rolling * in.load, size = norm(free);
+  const auto holds = size < limit;
+  const Vector3<Real> kept = select(holds, Real(1.0), limit / (size + tiny)) * free;
+  const Real damping = select(holds, in.damping_ratio * 2 * sqrt(in.inertia * stiffness), Real(0.0));
+  return {kept - damping * rolling, kept + half_step};
 }
 
 }  // namespace wedge

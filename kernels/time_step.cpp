@@ -81,19 +81,22 @@ void TimeStep::advance(State& state, double dt) {
     stopwatch_.time("refresh images", [&] { refresh_images(state); });
   }
   forces(state, dt);
-  stopwatch_.time("kick", [&] { bodies_.kick(state, dt); });
+  stopwatch_.time("kick", [&] { bodies_.kick(state, reactions_, dt); });
 }
 
 void TimeStep::forces(State& state, double dt) {
-  stopwatch_.time("evaluate contacts", [&] { law_.evaluate_contacts(state, dt); });
-  stopwatch_.time("reduce forces", [&] { bodies_.reduce_forces(state); });
-  stopwatch_.time("fold images", [&] { bodies_.fold_images(state); });
-  stopwatch_.time("evaluate walls", [&] { law_.evaluate_walls(state, dt); });
+  if (reactions_.list != state.list_builds) map_reactions(state, rules_.axis, reactions_);  // the list came from a checkpoint
+  stopwatch_.time("evaluate contacts", [&] { law_.evaluate_contacts(state, reactions_, dt); });
+  stopwatch_.time("fold reactions", [&] { fold_reactions(state, reactions_); });
+  stopwatch_.time("evaluate walls", [&] { law_.evaluate_walls(state, reactions_, dt); });
 }
 
 void TimeStep::renew_list(State& state, double dt) {
   check_motion(state, dt);
-  if (domain_.outlet_height && mark_departures(state, scratch_, *domain_.outlet_height) > 0) book_departures(state);
+  if (domain_.outlet_height && mark_departures(state, scratch_, *domain_.outlet_height) > 0) {
+    refresh_images(state);  // the energy of contacts is that of the places of now
+    book_departures(state);
+  }
   wrap(state, scratch_);
   choose_margins(state, smallest_margin_, dt);
   sort_by_cell(state, scratch_);
@@ -101,17 +104,19 @@ void TimeStep::renew_list(State& state, double dt) {
   find_contacts(state, scratch_, rules_);
   find_wall_contacts(state, scratch_);
   ++state.list_builds;
+  map_reactions(state, rules_.axis, reactions_);
 }
 
 void TimeStep::start(State& state, double dt) {
   Particles& p = state.particles;
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
-    p.velocity_seen.set(s, p.velocity.get(s));
-    p.angular_velocity_seen.set(s, p.angular_velocity.get(s));
+    p.seen[s] = {p.position.get(s), p.velocity.get(s), p.radius[s], p.mass[s], p.angular_velocity.get(s),
+                 static_cast<double>(p.material[s])};
   }
   renew_list(state, dt);
   forces(state, 0);
+  bodies_.take_forces(state, reactions_);
 }
 
 void TimeStep::expire_list(State& state) { state.wall_travel = std::numeric_limits<double>::infinity(); }
@@ -134,7 +139,7 @@ void TimeStep::book_departures(State& state) {
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
     if (!scratch_.leaves[s]) continue;
-    const Vec3 v = p.velocity_seen.get(s), w = p.angular_velocity_seen.get(s);
+    const Vec3 v = p.seen[s].velocity, w = p.seen[s].angular_velocity;
     state.energy.carried_out += 0.5 * p.mass[s] * dot(v, v) +
                                 0.5 * sphere_inertia(p.mass[s], p.radius[s]) * dot(w, w) -
                                 p.mass[s] * dot(g, p.position.get(s));

@@ -9,6 +9,7 @@
 #include "kernels/body_passes.hpp"
 #include "kernels/law_passes.hpp"
 #include "kernels/neighbours.hpp"
+#include "kernels/reactions.hpp"
 
 namespace wedge {
 
@@ -40,6 +41,9 @@ public:
   /// Takes walls away and puts others in place, by number; the energy in contacts with the former goes with them.
   void change_walls(State& state, const std::vector<int>& remove, const std::vector<int>& add) const;
 
+  /// Force on the first grain of each row of the contact table [N], of the last force step.
+  Vec3Array contact_forces(const State& state) const { return law_.contact_forces(state); }
+
   Energies energies(const State& state) const;
   /// What the budget of `state.energy` leaves unexplained [J], given the energies at the start; see EnergyLedger.
   /// `history_coupling` [J] is the change of elastic tangential energy by changing overlap.
@@ -62,6 +66,7 @@ private:
   BodyPasses bodies_;
   LawPasses law_;
   NeighbourScratch scratch_;
+  Reactions reactions_;
   Stopwatch stopwatch_;
 };
 

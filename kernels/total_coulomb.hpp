@@ -8,10 +8,11 @@ namespace wedge {
 
 template <class Law>
 struct TotalCoulomb : Law {
-  static ContactResponse respond(const typename Law::Coefficients& c, const ContactInput& in) {
-    ContactResponse out = Law::respond(c, in);
-    const double limit = c.sliding * out.elastic_normal, size = norm(out.tangential);
-    if (size > limit) out.tangential = (limit / size) * out.tangential;
+  template <class Coefficients, class Real>
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const Coefficients& c, const ContactInputOf<Real>& in) {
+    ContactResponseOf<Real> out = Law::respond(c, in);
+    const Real limit = c.sliding * out.elastic_normal, size = norm(out.tangential);
+    out.tangential = select(size > limit, limit / (size + tiny), Real(1.0)) * out.tangential;
     return out;
   }
 };

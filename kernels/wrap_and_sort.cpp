@@ -98,9 +98,11 @@ void wrap(State& state, NeighbourScratch& scratch) {
     scratch.wrap[s] = k;
     if (k == 0) return;
     p.position.set(s, symmetry.turn_point(p.position.get(s), k));
-    for (Vec3Array* field :
-         {&p.velocity, &p.angular_velocity, &p.velocity_seen, &p.angular_velocity_seen, &p.force, &p.torque})
+    for (Vec3Array* field : {&p.velocity, &p.angular_velocity, &p.force, &p.torque})
       field->set(s, symmetry.turn_vector(field->get(s), k));
+    Seen& seen = p.seen[s];
+    seen.position = p.position.get(s);
+    for (Vec3* vector : {&seen.velocity, &seen.angular_velocity}) *vector = symmetry.turn_vector(*vector, k);
     p.turns[s] -= k;
   });
 }
@@ -122,12 +124,12 @@ Index mark_departures(State& state, NeighbourScratch& scratch, double outlet) {
     if (leaving++ == 0) scratch.leaves.assign(static_cast<std::size_t>(p.count()), 0);
     scratch.leaves[s] = 1;
     Departure d;
-    const double fall = p.velocity_seen.z[s];
+    const double fall = p.seen[s].velocity.z;
     d.time = state.time + (fall < 0 ? (outlet - p.position.z[s]) / fall : 0.0);
     d.id = p.id[s];
     d.layer = p.layer[s];
     d.position = p.position.get(s);
-    d.velocity = p.velocity_seen.get(s);
+    d.velocity = p.seen[s].velocity;
     d.mass = p.mass[s];
     state.departures.push_back(d);
   }
@@ -156,11 +158,7 @@ void sort_by_cell(State& state, NeighbourScratch& s) {
       permute(field, s.order, s.whole_buffer);
   };
   Particles::for_each_field(p, [&](const FieldInfo&, auto& field) { reorder(field); });
-  for (Vec3Array* seen : {&p.velocity_seen, &p.angular_velocity_seen}) {
-    reorder(seen->x);
-    reorder(seen->y);
-    reorder(seen->z);
-  }
+  permute(p.seen, s.order, s.seen_buffer);
   reorder(s.wrap);
   s.old_slot.swap(s.order);
   s.leaves.clear();

@@ -139,7 +139,7 @@ int bench(int argc, char** argv) {
   std::sort(rates.begin(), rates.end());
   long touching = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k)
-    touching += state.contacts.half_overlap(k) > 0;
+    touching += row_overlap(state, k) > 0;
   std::printf(
       "grains %.0f images %d pairs/grain %.3f contacts/grain %.3f lists %lld in %d steps; settling %.0f "
       "particle-steps/s\n",

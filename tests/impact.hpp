@@ -59,7 +59,7 @@ inline Impact head_on(const Scene& scene, double radius, double speed, double dt
                dt);
   return impact(
       e, dt, [&] { return e.touching(); }, [&] { return e.deepest_overlap(); },
-      [&] { return norm(e.state.contacts.force(0)); });
+      [&] { return norm(e.contact_force(0)); });
 }
 
 /// A sphere thrown at the plate z = 0 (the first wall of the scene) without gravity.

@@ -112,13 +112,13 @@ public:
   int touching() const {
     int n = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k)
-      n += state.contacts.half_overlap(k) > 0;
+      n += row_overlap(state, k) > 0;
     return n;
   }
   double deepest_overlap() const {
     double deepest = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(state.contacts.rows()); ++k)
-      deepest = std::max(deepest, 2 * state.contacts.half_overlap(k));
+      deepest = std::max(deepest, row_overlap(state, k));
     return deepest;
   }
   int touching_walls() const {
@@ -126,6 +126,8 @@ public:
     for (const auto t : state.wall_contacts.touching) n += t;
     return n;
   }
+  /// Force on the first grain of a row in the last force step [N].
+  Vec3 contact_force(std::size_t row) const { return step.contact_forces(state).get(row); }
   double residual() const { return step.residual(state, begin, step.energies(state)); }
 
   State state;

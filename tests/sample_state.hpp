@@ -60,8 +60,7 @@ inline State sample_state(Index grains = 5) {
   s.images.owner = {0, 2};
   s.images.turn = {1, -1};
   s.particles.position.resize(slots);
-  s.particles.velocity_seen.resize(slots);
-  s.particles.angular_velocity_seen.resize(slots);
+  s.particles.seen.resize(slots);
   s.particles.radius.resize(slots);
   s.particles.mass.resize(slots);
   s.particles.material.resize(slots);
@@ -77,19 +76,23 @@ inline State sample_state(Index grains = 5) {
   s.contacts.first = {0, 0, 1};
   s.contacts.second = {1, 2, grains + 1};
   s.contacts.turn = {0, 0, -1};
-  fill_sample(s.contacts.outcome, next, start += 100);
-  const double half_overlaps[] = {1e-5, -2e-5, 3e-5};
-  for (std::size_t k = 0; k < 3; ++k) s.contacts.outcome[ContactTable::outcome_size * k + 6] = half_overlaps[k];
   s.contacts.normal.set(0, {0.6, 0, 0.8});
   s.contacts.normal.set(2, {0, -0.8, 0.6});
   s.contacts.row_begin.assign(static_cast<std::size_t>(grains) + 1, 3);
   s.contacts.row_begin[0] = 0;
   s.contacts.row_begin[1] = 2;
-  s.contacts.incoming_begin.assign(slots + 1, 2);
-  s.contacts.incoming_begin[0] = s.contacts.incoming_begin[1] = 0;
-  s.contacts.incoming_begin[2] = 1;
-  s.contacts.incoming_begin[slots] = 3;
-  s.contacts.incoming = {0, 1, 2};
+  for (Seen& seen : s.particles.seen)
+    seen = {{next(), next(), next()}, {next(), next(), next()}, next(), next(), {next(), next(), next()}, next()};
+  // Places and sizes that make of the rows a contact, a gap and a contact.
+  const auto copy = static_cast<std::size_t>(grains) + 1;
+  const auto put = [&](std::size_t i, Vec3 x, double radius) {
+    s.particles.position.set(i, x);
+    s.particles.radius[i] = radius;
+  };
+  put(0, {0.21, 0.33, 0.7}, 0.05);
+  put(1, {0.27, 0.33, 0.78}, 0.0501);
+  put(2, {0.21, 0.5, 0.7}, 0.04);
+  put(copy, {0.27, 0.26, 0.83}, 0.036);
   s.wall_contacts.resize(3);
   WallContactTable::for_each_field(s.wall_contacts,
                                    [&](const FieldInfo&, auto& field) { fill_sample(field, next, start += 100); });
@@ -114,6 +117,7 @@ inline State sample_state(Index grains = 5) {
   s.time = next();
   s.wall_margin = next();
   s.wall_travel = next();
+  s.history_ahead = next();
   s.step = 12345678901;
   s.list_builds = 17;
   s.mean_diameter = next();
@@ -121,6 +125,15 @@ inline State sample_state(Index grains = 5) {
   s.put_in = 23;
   s.taken_out = 29;
   return s;
+}
+
+/// Forces for the rows of a state, no two numbers equal.
+inline Vec3Array sample_forces(const State& s) {
+  SampleNumbers next;
+  Vec3Array forces;
+  forces.resize(s.contacts.first.size());
+  for (std::size_t k = 0; k < forces.size(); ++k) forces.set(k, {next(), next(), next()});
+  return forces;
 }
 
 }  // namespace wedge

@@ -44,11 +44,9 @@ std::string bytes_of(const State& s) {
   append_bytes(bytes, s.images.owner);
   append_bytes(bytes, s.images.turn);
   append_bytes(bytes, s.contacts.row_begin);
-  append_bytes(bytes, s.contacts.incoming_begin);
-  append_bytes(bytes, s.contacts.incoming);
+  append_bytes(bytes, s.particles.seen);
   ContactTable::for_each_field(s.contacts,
                                [&](const FieldInfo&, const auto& field) { append_bytes(bytes, field); });
-  append_bytes(bytes, s.contacts.outcome);
   append_bytes(bytes, s.wall_contacts.grain);
   append_bytes(bytes, s.wall_contacts.begin);
   WallContactTable::for_each_field(s.wall_contacts,
@@ -56,6 +54,7 @@ std::string bytes_of(const State& s) {
   const auto number = [&](auto value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
   EnergyLedger::for_each_field(s.energy, [&](const char*, double value) { number(value); });
   number(s.time);
+  number(s.history_ahead);
   number(s.wall_margin);
   number(s.mean_diameter);
   number(s.alike);
@@ -97,8 +96,7 @@ TEST_CASE("a checkpoint reads back to the bit, and writing it changes nothing") 
   CHECK(read_extra.resolved_scene.empty());
   CHECK(read_extra.run_state == extra.run_state);
   CHECK(read_checkpoint_extra(path).run_state == extra.run_state);
-  CHECK(read.particles.velocity_seen.size() == 7);  // grains and images
-  CHECK(read.particles.angular_velocity_seen.z[6] == 0);
+  CHECK(read.particles.seen.size() == 7);  // grains and images
   CHECK(folder.files() == 1);
 }
 

@@ -193,7 +193,7 @@ TEST_CASE("collisions in a sector keep what lies along the axis", "[conservation
     for (int k = 0; k < 20; ++k) {
       e.run(50);
       for (Index row = 0; row < e.state.contacts.rows(); ++row)
-        seam_contacts += e.state.contacts.half_overlap(static_cast<std::size_t>(row)) > 0 &&
+        seam_contacts += row_overlap(e.state, static_cast<std::size_t>(row)) > 0 &&
                          e.state.contacts.turn[static_cast<std::size_t>(row)] != 0;
     }
     CHECK(seam_contacts > 0);

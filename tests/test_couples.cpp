@@ -34,7 +34,7 @@ TEST_CASE("relative: the couple is mu_r |f_n|, or half of what stops the pair wi
   CHECK(norm(relative_couple(fast, 1e-9) - Vec3{-1.2e-4, 0, -1.6e-4}) < 1e-18);
   const RollingInput slow{{3e-5, 0, 4e-5}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0};
   CHECK(norm(relative_couple(slow, 1e-5) - (-0.5 * 1e-8 / 1e-5) * slow.spin) < 1e-18);
-  CHECK(norm(relative_couple({{}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0}, 1e-5)) == 0);
+  CHECK(norm(relative_couple(RollingInput{{}, {0, 0, 1}, 2.0, 0, 1e-4, 1e-8, 0}, 1e-5)) == 0);
 }
 
 TEST_CASE(

@@ -92,13 +92,14 @@ TEST_CASE("every field of a frame says its name, unit and meaning") {
 TEST_CASE("a contact frame holds the touching rows with their forces taken apart") {
   const ScratchFolder folder;
   const State state = sample_state();
-  write_contact_frame(folder / "c.hdf", state, info_of(FramePrecision::double_precision));
+  const Vec3Array forces = sample_forces(state);
+  write_contact_frame(folder / "c.hdf", state, forces, info_of(FramePrecision::double_precision));
   const ContactFrame frame = read_contact_frame(folder / "c.hdf");
   REQUIRE(frame.size() == 2);  // the middle row is apart
   const std::size_t rows[2] = {0, 2};
   for (std::size_t c = 0; c < 2; ++c) {
     const std::size_t k = rows[c];
-    const Vec3 force = state.contacts.force(k), normal = state.contacts.normal.get(k);
+    const Vec3 force = forces.get(k), normal = state.contacts.normal.get(k);
     const auto first = static_cast<std::size_t>(state.contacts.first[k]);
     CHECK(frame.first_id[c] == state.particles.id[first]);
     CHECK(frame.second_id[c] == state.contacts.partner_id[k]);
@@ -108,7 +109,7 @@ TEST_CASE("a contact frame holds the touching rows with their forces taken apart
     CHECK(norm(cross(frame.normal_force.get(c), normal)) < 1e-15);
     CHECK(frame.normal_load[c] == Approx(-dot(force, normal)));
     CHECK(frame.tangential_load[c] == Approx(norm(cross(force, normal))));
-    CHECK(frame.overlap[c] == 2 * state.contacts.half_overlap(k));
+    CHECK(frame.overlap[c] == row_overlap(state, k));
     CHECK(frame.first_position.x[c] == state.particles.position.x[first]);
   }
   // Across the face the line ends at the image, slot 6 of 5 grains and 2 images.
@@ -119,7 +120,7 @@ TEST_CASE("the VTKHDF group describes vertices and lines") {
   const ScratchFolder folder;
   const State state = sample_state();
   write_particle_frame(folder / "p.hdf", state, info_of(FramePrecision::single_precision));
-  write_contact_frame(folder / "c.hdf", state, info_of(FramePrecision::single_precision));
+  write_contact_frame(folder / "c.hdf", state, sample_forces(state), info_of(FramePrecision::single_precision));
   const Hdf5Reader grains(folder / "p.hdf"), contacts(folder / "c.hdf");
   CHECK(grains.text_attribute("VTKHDF", "Type") == "UnstructuredGrid");
   Array<std::int64_t> numbers;
@@ -143,7 +144,7 @@ TEST_CASE("frames without grains and without contacts read back") {
   const ScratchFolder folder;
   State state;
   write_particle_frame(folder / "p.hdf", state, {});
-  write_contact_frame(folder / "c.hdf", state, {});
+  write_contact_frame(folder / "c.hdf", state, sample_forces(state), {});
   CHECK(read_particle_frame(folder / "p.hdf").particles.count() == 0);
   CHECK(read_contact_frame(folder / "c.hdf").size() == 0);
 }
@@ -153,7 +154,7 @@ TEST_CASE("what is no frame is refused by path and cause") {
   const State state = sample_state();
   const std::string path = folder / "c.hdf";
   CHECK_THROWS_WITH(read_particle_frame(folder / "none.hdf"), Contains("none.hdf") && Contains("No such file"));
-  write_contact_frame(path, state, {});
+  write_contact_frame(path, state, sample_forces(state), {});
   CHECK_THROWS_WITH(read_particle_frame(path), Contains("c.hdf: is not a wedge particle frame"));
   write_text_file_atomically(folder / "text.hdf", "not HDF5");
   CHECK_THROWS_AS(read_particle_frame(folder / "text.hdf"), FileError);

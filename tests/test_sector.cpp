@@ -141,7 +141,7 @@ int contacts_in_the_whole(const State& slice, int n) {
   int twice = 0;
   for (Index k = 0; k < c.rows(); ++k) {
     const auto r = static_cast<std::size_t>(k);
-    if (!(c.half_overlap(r) > 0)) continue;
+    if (!(row_overlap(slice, r) > 0)) continue;
     const bool shared = c.second[r] >= grains && 2 * c.turn[r] == n &&
                         slice.images.owner[static_cast<std::size_t>(c.second[r] - grains)] == c.first[r];
     twice += shared ? n : 2 * n;

@@ -64,7 +64,7 @@ public:
   double deepest_overlap() const {  // m
     double deepest = 0;
     for (Index k = 0; k < state.contacts.rows(); ++k)
-      deepest = std::max(deepest, 2 * state.contacts.half_overlap(static_cast<std::size_t>(k)));
+      deepest = std::max(deepest, row_overlap(state, static_cast<std::size_t>(k)));
     return deepest;
   }
   double largest_spin() const {

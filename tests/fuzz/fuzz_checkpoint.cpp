@@ -19,7 +19,7 @@ namespace {
 void write_with_head(const std::string& path, const std::string& content) {
   std::string head(512, '\0');
   const auto hash = fnv1a(fnv_start, reinterpret_cast<const unsigned char*>(content.data()), content.size());
-  std::snprintf(head.data(), head.size(), "wedge checkpoint 2\nbytes %020llu\nfnv1a64 %016llx\n",
+  std::snprintf(head.data(), head.size(), "wedge checkpoint 3\nbytes %020llu\nfnv1a64 %016llx\n",
                 static_cast<unsigned long long>(content.size()), static_cast<unsigned long long>(hash));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << head << content;
 }
@@ -53,12 +53,8 @@ double follow_indices(const State& s) {
     for (Index k = s.contacts.row_begin[i]; k < s.contacts.row_begin[i + 1]; ++k) {
       const auto row = static_cast<std::size_t>(k);
       sum += p.mass.at(i) + p.radius.at(static_cast<std::size_t>(s.contacts.second.at(row)));
-      sum += s.contacts.force(row).x + s.contacts.history.x.at(row) + s.symmetry.residue(s.contacts.turn.at(row));
+      sum += row_overlap(s, row) + s.contacts.history.x.at(row) + s.symmetry.residue(s.contacts.turn.at(row));
     }
-  for (std::size_t slot = 0; slot + 1 < s.contacts.incoming_begin.size(); ++slot)
-    for (Index k = s.contacts.incoming_begin[slot]; k < s.contacts.incoming_begin[slot + 1]; ++k)
-      sum +=
-          s.contacts.outcome.at(8 * static_cast<std::size_t>(s.contacts.incoming.at(static_cast<std::size_t>(k))));
   const WallContactTable& w = s.wall_contacts;
   for (std::size_t g = 0; g < w.grain.size(); ++g)
     for (Index k = w.begin.at(g); k < w.begin.at(g + 1); ++k)
@@ -100,9 +96,6 @@ private:
     change(s.images.owner, 1);  // lengths of images stay: the writer needs them
     change(s.images.turn, 0);
     change(s.contacts.row_begin, 0);
-    change(s.contacts.incoming_begin, 0);
-    change(s.contacts.incoming, 0);
-    change(s.contacts.outcome, 0);
     change(s.wall_contacts.grain, 0);
     change(s.wall_contacts.begin, 0);
     ContactTable::for_each_field(s.contacts, [&](const FieldInfo&, auto& field) { change(field, 0); });

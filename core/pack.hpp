@@ -1,0 +1,83 @@
+// pack.hpp: as many numbers as the processor computes with one instruction, and records of eight turned into columns.
+//
+// Laws are written once for a number type `Real`: double for one contact, a pack for as many as fit. Packs are those
+// of the Parallelism TS 2 in the standard library (std::experimental::native_simd).
+#pragma once
+
+#include <experimental/simd>
+
+#include "core/vec3.hpp"
+
+/// For small functions of packs, which must not pass them through memory.
+#define WEDGE_INLINE __attribute__((always_inline)) inline
+
+namespace wedge {
+
+namespace simd = std::experimental;
+
+using Pack = simd::native_simd<double>;
+/// Numbers in a pack. Divides 8 on all processors with vectors of up to 64 bytes.
+inline constexpr Index pack_size = static_cast<Index>(Pack::size());
+static_assert(8 % pack_size == 0, "a pack must fit into a record of eight");
+
+inline bool any_of(bool condition) { return condition; }
+inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
+
+WEDGE_INLINE Pack select(const Pack::mask_type& condition, const Pack& yes, Pack no) {
+  simd::where(condition, no) = yes;
+  return no;
+}
+WEDGE_INLINE bool any_of(const Pack::mask_type& condition) { return simd::any_of(condition); }
+
+using PackVec3 = Vector3<Pack>;
+
+WEDGE_INLINE Pack load(const double* numbers) { return Pack(numbers, simd::element_aligned); }
+WEDGE_INLINE void store(double* numbers, const Pack& pack) { pack.copy_to(numbers, simd::element_aligned); }
+
+/// A record of eight numbers: one cache line.
+typedef double Eight __attribute__((vector_size(64), may_alias));
+typedef double Four __attribute__((vector_size(32), may_alias));
+/// The same eight numbers where they begin anywhere.
+typedef double UnalignedEight __attribute__((vector_size(64), aligned(8), may_alias));
+
+#ifdef __AVX512F__
+/// out[c][r] = in[r][c] for eight records of eight numbers.
+WEDGE_INLINE void transpose(const Eight (&in)[8], Eight (&out)[8]) {
+  Eight pairs[8], fours[8];
+  for (int m = 0; m < 8; m += 2) {
+    pairs[m] = __builtin_shufflevector(in[m], in[m + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    pairs[m + 1] = __builtin_shufflevector(in[m], in[m + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int m = 0; m < 8; m += 4) {
+    for (int k = 0; k < 2; ++k) {
+      fours[m + k] = __builtin_shufflevector(pairs[m + k], pairs[m + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[m + k + 2] = __builtin_shufflevector(pairs[m + k], pairs[m + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  }
+  for (int m = 0; m < 4; ++m) {
+    out[m] = __builtin_shufflevector(fours[m], fours[m + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    out[m + 4] = __builtin_shufflevector(fours[m], fours[m + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+#else
+WEDGE_INLINE void transpose(const Eight (&in)[8], Eight (&out)[8]) {
+  const auto half = [](const Eight& v, int h) { return reinterpret_cast<const Four*>(&v)[h]; };
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) {
+      Four pairs[4];
+      for (int m = 0; m < 4; m += 2) {
+        const Four a = half(in[4 * row + m], column), b = half(in[4 * row + m + 1], column);
+        pairs[m] = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        pairs[m + 1] = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+      }
+      for (int m = 0; m < 2; ++m) {
+        reinterpret_cast<Four*>(&out[4 * column + m])[row] = __builtin_shufflevector(pairs[m], pairs[m + 2], 0, 1, 4, 5);
+        reinterpret_cast<Four*>(&out[4 * column + m + 2])[row] =
+            __builtin_shufflevector(pairs[m], pairs[m + 2], 2, 3, 6, 7);
+      }
+    }
+  }
+}
+#endif
+
+}  // namespace wedge
