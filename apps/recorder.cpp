@@ -128,6 +128,16 @@ void Recorder::record_due(State& state, const TimeStep& step, RunMemory& memory)
   if (frame) record_frame(state, step, memory);
 }
 
+double Recorder::next_due(const RunMemory& memory) const {
+  double due = static_cast<double>(memory.series_rows) * series_every_;
+  if (scene_.output.frames_every > 0)
+    due = std::min(due, static_cast<double>(memory.regular_frames) * scene_.output.frames_every);
+  const auto& at = scene_.output.frames_at;
+  if (memory.listed_frames < static_cast<std::int64_t>(at.size()))
+    due = std::min(due, at[static_cast<std::size_t>(memory.listed_frames)]);
+  return due;
+}
+
 void Recorder::record_series(const State& state, const TimeStep& step, RunMemory& memory) {
   if (memory.last_row == state.time) return;
   memory.last_row = state.time;

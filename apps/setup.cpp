@@ -13,6 +13,7 @@
 #include "io/scene_file.hpp"
 #include "io/state_csv.hpp"
 #include "kernels/fill.hpp"
+#include "kernels/integrate.hpp"
 #include "kernels/time_step.hpp"
 
 namespace wedge {

@@ -182,7 +182,7 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
   if (!memory_.stage_begun) begin_stage();
   recorder_->record_due(*state_, *step_, memory_);
   while (!stage_is_over()) {
-    step_->advance(*state_, dt_);
+    step_->advance(*state_, dt_, steps_to_look(limits));
     if (!state_->departures.empty()) recorder_->record_departures(*state_);
     recorder_->record_due(*state_, *step_, memory_);
     if (state_->step % judge_every == 0) judge_budget();
@@ -198,6 +198,19 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
   between_steps();
   end_stage();
   return std::nullopt;
+}
+
+/// Steps until something may have to be done between two of them: all that ends a run or a stage, or is recorded, by
+/// its time. Where that is near, one.
+int Simulation::steps_to_look(const RunLimits& limits) const {
+  double due = recorder_->next_due(memory_);
+  if (limits.until) due = std::min(due, *limits.until);
+  if (stage().at_most > 0) due = std::min(due, memory_.stage_start + stage().at_most);
+  if (const auto* time = std::get_if<UntilTime>(&stage().until))
+    due = std::min(due, memory_.stage_start + time->duration);
+  const double steps = (due - state_->time) / dt_ - 2;  // round-off of times is far below two steps
+  const auto to_look = static_cast<double>(look_every - state_->step % look_every);
+  return static_cast<int>(std::clamp(steps, 1.0, to_look));
 }
 
 void Simulation::begin_stage() {

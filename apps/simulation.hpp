@@ -52,6 +52,7 @@ private:
   [[noreturn]] void fail(const PhysicsError& error, const std::string& remedy);
   RunEnd run_stages(const RunLimits& limits);
   std::optional<RunEnd> run_stage(const RunLimits& limits);
+  int steps_to_look(const RunLimits& limits) const;
   void begin_stage();
   void end_stage();
   bool stage_is_over();

@@ -31,8 +31,16 @@ WEDGE_INLINE bool any_of(const Pack::mask_type& condition) { return simd::any_of
 
 using PackVec3 = Vector3<Pack>;
 
-WEDGE_INLINE Pack load(const double* numbers) { return Pack(numbers, simd::element_aligned); }
+/// A pack from memory, or one number.
+template <class Real = Pack>
+WEDGE_INLINE Real load(const double* numbers) {
+  if constexpr (std::is_same_v<Real, double>)
+    return *numbers;
+  else
+    return Real(numbers, simd::element_aligned);
+}
 WEDGE_INLINE void store(double* numbers, const Pack& pack) { pack.copy_to(numbers, simd::element_aligned); }
+inline void store(double* number, double value) { *number = value; }
 
 /// A record of eight numbers: one cache line.
 typedef double Eight __attribute__((vector_size(64), may_alias));

@@ -162,7 +162,7 @@ namespace {
     result.distance = std::abs(height);
     result.normal = height < 0 ? x.plane_normal : -x.plane_normal;
   } else {
-    const double r = std::hypot(p.x, p.y), beyond = r - x.core_radius;
+    const double r = std::sqrt(p.x * p.x + p.y * p.y), beyond = r - x.core_radius;
     result.distance = std::abs(beyond);
     if (r > 0) result.normal = (beyond < 0 ? 1 / r : -1 / r) * Vec3{p.x, p.y, 0};
   }
@@ -177,7 +177,7 @@ WallProximity Vessel::proximity(int f, Vec3 p) const {
   if (__builtin_expect(x.kind == WallFeature::Kind::plane || x.kind == WallFeature::Kind::core, 0))
     return proximity_of_plane_or_core(x, p);
   // The half plane through the axis and the point; on the axis itself the one with phi = 0.
-  const double r = slot_ ? p.x : std::hypot(p.x, p.y);
+  const double r = slot_ ? p.x : std::sqrt(p.x * p.x + p.y * p.y);
   const Vec3 outward = slot_ || r == 0 ? Vec3{1, 0, 0} : Vec3{p.x / r, p.y / r, 0};
   const Eigen::Vector2d q(r, p.z - travel(x.wall));
   Eigen::Vector2d nearest;

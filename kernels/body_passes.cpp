@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "kernels/integrate.hpp"
+#include "kernels/move.hpp"
 
 namespace wedge {
 
@@ -41,11 +41,14 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
             return (void)one,
                    GeneralBodies{s.particles.radius.data(), s.particles.mass.data(), s.particles.material.data()};
         };
-        passes.kick_and_drift = [=](State& s, double dt) { return kick_and_drift<need, act>(bodies(s), s, g, dt); };
-        passes.kick = [=](State& s, const Reactions& r, double dt) { kick<need, act>(bodies(s), s, r, g, dt); };
-        passes.take_forces = [](State& s, const Reactions& r) {
-          take_sums<need>(r, kick_arrays(s.particles), 0, s.particles.count());
+        const auto moves = [=](auto halves) {
+          return [=](State& s, const Reactions& r, double dt) {
+            return move_grains<decltype(halves)::value, need, act>(bodies(s), s, r, g, dt);
+          };
         };
+        passes.first_half = moves(std::integral_constant<Halves, Halves::first>{});
+        passes.second_half = moves(std::integral_constant<Halves, Halves::second>{});
+        passes.second_and_first_half = moves(std::integral_constant<Halves, Halves::second_and_first>{});
       },
       level, action, alike);
   return passes;

@@ -1,18 +1,18 @@
-// body_passes.hpp: the passes over grains (kicks and drift), with all types chosen: one call each per step.
+// body_passes.hpp: the passes over grains, with all types chosen: one call each per step.
 #pragma once
 
 #include <functional>
 
 #include "core/scene.hpp"
 #include "core/state.hpp"
-#include "kernels/integrate.hpp"
+#include "kernels/friction.hpp"
+#include "kernels/reactions.hpp"
 
 namespace wedge {
 
 struct BodyPasses {
-  std::function<bool(State&, double dt)> kick_and_drift;  // true: the neighbour list is stale
-  std::function<void(State&, const Reactions&, double dt)> kick;
-  std::function<void(State&, const Reactions&)> take_forces;  // alone, without a kick
+  // See move.hpp; true: the neighbour list is stale.
+  std::function<bool(State&, const Reactions&, double dt)> first_half, second_half, second_and_first_half;
 };
 
 BodyPasses make_body_passes(const Scene& scene, const State& state, Friction friction, bool uniform);

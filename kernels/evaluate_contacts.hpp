@@ -250,6 +250,8 @@ public:
   }
 
 private:
+  static constexpr Index fetched_ahead = 96;  // rows
+
   static StoredVectors at(Vec3Array& v, Index row) {
     if (v.size() == 0) return {};
     return {v.x.data() + row, v.y.data() + row, v.z.data() + row};
@@ -258,7 +260,8 @@ private:
   void evaluate_slab(Index from, Index rows, const StoredSlab& stored) {
     constexpr bool spinning = friction != Friction::none;
     const Index *first = c_.first.data() + from, *second = c_.second.data() + from;
-    collect<Mix::alike, spinning>(p_.seen.data(), first, second, rows, seen_);
+    const Index soon = std::min(from + fetched_ahead, c_.rows() - rows);
+    collect<Mix::alike, spinning>(p_.seen.data(), {first, second, c_.second.data() + soon, rows}, seen_);
     for (Index row = rows; row < (rows + 7) / 8 * 8; ++row) part_two_grains(row);
     if constexpr (friction == Friction::relative)
       for (Index row = 0; row < slab_size; ++row)

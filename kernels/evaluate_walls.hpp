@@ -2,27 +2,36 @@
 // own.
 #pragma once
 
-#include <sstream>
+#include <vector>
 
 #include "core/parallel.hpp"
-#include "core/require.hpp"
 #include "core/state.hpp"
 #include "kernels/contact_law.hpp"
 #include "kernels/evaluate_contacts.hpp"
 #include "kernels/history.hpp"
+#include "kernels/meet_walls.hpp"
 
 namespace wedge {
 
-/// Coefficients of each pair of materials, and the material of each wall.
+/// Coefficients of each material of grains with each wall.
 template <class Law>
-struct WallMix {
-  PairTable<typename Law::Coefficients> table;
-
-  typename Law::Coefficients coefficients(int grain_material, const Vessel& vessel, int wall) const {
-    auto c = table(grain_material, vessel.wall(wall).material);
-    if (vessel.frictionless(wall)) Law::remove_friction(c);
-    return c;
+class WallMix {
+public:
+  using Coefficients = typename Law::Coefficients;
+  WallMix(const PairTable<Coefficients>& table, const Vessel& vessel) : walls_(vessel.wall_count()) {
+    for (int material = 0; material < table.kinds(); ++material) {
+      for (int wall = 0; wall < walls_; ++wall) {
+        coefficients_.push_back(table(material, vessel.wall(wall).material));
+        if (vessel.frictionless(wall)) Law::remove_friction(coefficients_.back());
+      }
+    }
   }
+  Index slot(int material, int wall) const { return material * walls_ + wall; }
+  const Coefficients& operator[](Index slot) const { return coefficients_[static_cast<std::size_t>(slot)]; }
+
+private:
+  int walls_;
+  std::vector<Coefficients> coefficients_;
 };
 
 struct WallLosses {
@@ -30,67 +39,57 @@ struct WallLosses {
   double wall_work = 0;  // J, done by moving walls on the grains
   Index crossed = -1;    // a grain whose centre went through a wall
 };
+inline WallLosses operator+(const WallLosses& a, const WallLosses& b) {
+  return {a.contact + b.contact, a.wall_work + b.wall_work, std::max(a.crossed, b.crossed)};
+}
 
-/// Rows [begin, end) of the wall contact table as the grain in slot i meets them.
+/// Contacts with walls, a slab at a time: what comes from their rows and grains, and what goes back.
+struct WallSlab {
+  Index count = 0;
+  Index row[slab_size], grain[slab_size], coefficients[slab_size];
+  Column overlap, radius, mass, wall_spin, wall_speed, contacts;
+  VectorColumns place, velocity, spin, normal, before, history, rolling_moment;
+  VectorColumns force, torque;
+  Column rolling_cap;
+};
+
+/// Blocks of the wall contact table.
 template <class Law, Friction friction>
-class WallRows {
+class WallPass {
 public:
-  WallRows(const WallMix<Law>& mix, State& state, Reactions& reactions, const ForceStep& step)
-      : mix_(mix), state_(state), reactions_(reactions), c_(state.wall_contacts), dt_(step.dt), rolling_damping_(step.rolling_damping) {}
+  WallPass(const WallMix<Law>& mix, State& state, Reactions& reactions, const ForceStep& step)
+      : mix_(mix), state_(state), reactions_(reactions), c_(state.wall_contacts), step_(step) {}
 
-  void evaluate(Index i, Index begin, Index end, WallLosses& losses) const {
-    for (Index k = begin; k < end; ++k) meet(i, static_cast<std::size_t>(k));
-    for (Index k = begin; k < end; ++k) take_over(static_cast<std::size_t>(k), begin, end);
-    for (Index k = begin; k < end; ++k) respond(i, static_cast<std::size_t>(k), losses);
+  /// Entries [begin, end) of the table's list of grains.
+  WallLosses evaluate(Index begin, Index end) {
+    for (Index g = begin; g < end; ++g) {
+      const auto s = static_cast<std::size_t>(g);
+      meet_walls(state_, c_.grain[s], c_.begin[s], c_.begin[s + 1], has_couples(friction));
+      for (Index k = c_.begin[s]; k < c_.begin[s + 1]; ++k) take_in(c_.grain[s], static_cast<std::size_t>(k));
+    }
+    if (slab_.count > 0) respond();
+    return {losses_.sum(), simd::reduce(wall_work_), crossed_};
   }
 
 private:
-  enum Touch : std::int32_t { apart = 0, held = 1, fresh = 2, left = 3 };
+  using PackCoefficients = typename Law::template CoefficientsOf<Pack>;
 
-  /// Is the feature touched now? The transported history waits in its row.
-  void meet(Index i, std::size_t k) const {
-    const Particles& p = state_.particles;
-    const auto s = static_cast<std::size_t>(i);
-    const WallProximity near = state_.vessel.proximity(c_.feature[k], p.position.get(s));
-    const bool was = c_.touching[k] != 0;
-    const bool is = near.minimum && near.distance < p.radius[s] && state_.vessel.active(c_.feature[k]);
-    c_.touching[k] = was ? (is ? held : left) : (is ? fresh : apart);
-    c_.overlap[k] = is ? p.radius[s] - near.distance : 0.0;
-    c_.force.set(k, near.normal);  // the new normal, until respond() puts the force there
+  static void put(VectorColumns& to, Index row, const Vec3& v) {
+    to.x.number[row] = v.x;
+    to.y.number[row] = v.y;
+    to.z.number[row] = v.z;
+  }
+  static Vec3 get(const VectorColumns& from, Index row) {
+    return {from.x.number[row], from.y.number[row], from.z.number[row]};
   }
 
-  /// A contact that is fresh on one feature while the grain leaves the feature next to it is the same contact: it
-  /// takes the history along.
-  void take_over(std::size_t k, Index begin, Index end) const {
-    if (c_.touching[k] != fresh) return;
-    const auto& neighbours = state_.vessel.feature(c_.feature[k]).neighbours;
-    const auto beside = [&](int a) {
-      return std::find(neighbours.begin(), neighbours.end(), a) != neighbours.end();
-    };
-    for (Index m = begin; m < end; ++m) {
-      const auto o = static_cast<std::size_t>(m);
-      if (c_.touching[o] != left || !(beside(c_.feature[o]) || shares_edge(c_.feature[o], c_.feature[k]))) continue;
-      c_.history.set(k, c_.history.get(o));
-      c_.normal.set(k, c_.normal.get(o));
-      if constexpr (has_couples(friction)) c_.rolling_moment.set(k, c_.rolling_moment.get(o));
-      return;
-    }
-  }
-  bool shares_edge(int a, int b) const {
-    const auto& na = state_.vessel.feature(a).neighbours;
-    const auto& nb = state_.vessel.feature(b).neighbours;
-    return std::any_of(na.begin(), na.end(), [&](int e) { return std::find(nb.begin(), nb.end(), e) != nb.end(); });
-  }
-
-  void respond(Index i, std::size_t k, WallLosses& losses) const {
-    const Particles& p = state_.particles;
-    const auto s = static_cast<std::size_t>(i);
-    const Vec3 n = c_.force.get(k), before = c_.normal.get(k);
+  /// Row k, which grain i has met, becomes part of the slab if it touches.
+  void take_in(Index i, std::size_t k) {
+    const Vec3 n = c_.force.get(k), before = c_.normal.get(k);  // meet_walls left the new normal there
     c_.normal.set(k, n);
     const bool touches = c_.touching[k] == held || c_.touching[k] == fresh;
-    if (c_.touching[k] == held && dot(n, before) < 0 &&
-        state_.vessel.feature(c_.feature[k]).kind != WallFeature::Kind::edge)
-      losses.crossed = i;
+    const WallFeature& feature = state_.vessel.feature(c_.feature[k]);
+    if (c_.touching[k] == held && dot(n, before) < 0 && feature.kind != WallFeature::Kind::edge) crossed_ = i;
     c_.touching[k] = touches ? 1 : 0;
     if (!touches) {
       c_.history.set(k, {});
@@ -100,77 +99,141 @@ private:
       return;
     }
     const int wall = state_.vessel.carrier(c_.feature[k]);
-    const auto coefficients = mix_.coefficients(p.material[s], state_.vessel, wall);
-    const double lever = p.radius[s] - c_.overlap[k];
-    const Vec3 w = friction == Friction::none ? Vec3{} : p.seen[s].angular_velocity;
-    const Vec3 wall_velocity = state_.vessel.surface_velocity(wall, p.position.get(s) + lever * n);
-    const Vec3 v = p.seen[s].velocity - wall_velocity + lever * cross(w, n);
-
-    ContactInput in{c_.overlap[k], p.radius[s], p.mass[s], dot(v, n), {}, {}};
+    const Seen& seen = state_.particles.seen[static_cast<std::size_t>(i)];
+    const Index m = slab_.count++;
+    slab_.row[m] = static_cast<Index>(k);
+    slab_.grain[m] = i;
+    slab_.coefficients[m] = mix_.slot(state_.particles.material[static_cast<std::size_t>(i)], wall);
+    slab_.overlap.number[m] = c_.overlap[k];
+    slab_.radius.number[m] = seen.radius;
+    slab_.mass.number[m] = seen.mass;
+    slab_.wall_spin.number[m] = state_.vessel.wall(wall).spin;
+    slab_.wall_speed.number[m] = state_.vessel.wall(wall).speed;
+    put(slab_.place, m, seen.position);
+    put(slab_.velocity, m, seen.velocity);
+    put(slab_.normal, m, n);
     if constexpr (friction != Friction::none) {
-      in.tangential_velocity = v - in.approach_velocity * n;
-      const Vec3 wall_spin{0, 0, state_.vessel.wall(wall).spin}, stored = c_.history.get(k);
-      in.displacement = spin_about_normal(follow_normal(stored, before, n), n, 0.25 * dt_ * dot(w + wall_spin, n)) +
-                        slip_time(stored, in.overlap, in.approach_velocity, dt_) * in.tangential_velocity;
+      put(slab_.spin, m, seen.angular_velocity);
+      put(slab_.before, m, before);
+      put(slab_.history, m, c_.history.get(k));
     }
-    const ContactResponse out = Law::respond(coefficients, in);
-    const Vec3 tangential = friction == Friction::none ? Vec3{} : out.tangential;
-    const Vec3 force = tangential - out.normal * n;
-    const Vec3 torque = lever * cross(n, tangential);
-    c_.force.set(k, force);
-    c_.torque.set(k, torque);
-    losses.contact.normal_damping += (out.normal - out.elastic_normal) * in.approach_velocity * dt_;
-    losses.wall_work += dt_ * dot(force, wall_velocity);
-    if constexpr (friction != Friction::none) {
-      c_.history.set(k, out.displacement + (0.5 * dt_) * in.tangential_velocity);
-      losses.contact.tangential_work -= dt_ * dot(out.elastic_tangential, in.tangential_velocity);
-      losses.contact.tangential_damping +=
-          dt_ * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
-      losses.contact.sliding += out.sliding_loss;
-    }
-    double* const sum = reactions_.sum(i);
-    const double felt[] = {force.x, force.y, force.z, torque.x, torque.y, torque.z};
-    for (int c = 0; c < 6; ++c) sum[c] += felt[c];
-    if constexpr (friction == Friction::rolling) sum[6] += coefficients.rolling * std::fabs(out.normal);
-    if constexpr (has_couples(friction)) add_couple(i, k, coefficients.rolling, out, before, losses);
+    if constexpr (friction == Friction::relative)
+      slab_.contacts.number[m] = state_.contacts.contact_count[static_cast<std::size_t>(i)];
+    if constexpr (friction == Friction::spring) put(slab_.rolling_moment, m, c_.rolling_moment.get(k));
+    if (slab_.count == slab_size) respond();
   }
 
-  /// Rolling couple of grain i on the wall of row k, added to the torque. The wall has no inertia to share.
-  void add_couple(Index i, std::size_t k, double rolling, const ContactResponse& response, Vec3 before,
-                  WallLosses& losses) const {
-    const Particles& p = state_.particles;
-    const auto s = static_cast<std::size_t>(i);
-    const Vec3 n = c_.normal.get(k), w = p.seen[s].angular_velocity;
-    const Vec3 wall_spin{0, 0, state_.vessel.wall(state_.vessel.carrier(c_.feature[k])).spin};
-    RollingInput in{
-        w - wall_spin,   n, std::fabs(response.normal), response.elastic_normal / c_.overlap[k], rolling, 0,
-        rolling_damping_};
-    Vec3 couple;
-    if constexpr (friction == Friction::relative) {
-      in.inertia = sphere_inertia(p.mass[s], p.radius[s]) / state_.contacts.contact_count[s];
-      couple = relative_couple(in, dt_);
-    } else {
-      in.inertia = rocking_inertia(p.mass[s], p.radius[s]);
-      const Vec3 followed = follow_normal(c_.rolling_moment.get(k), before, n);
-      const RollingSpring spring =
-          rolling_spring(in, spin_about_normal(followed, n, 0.25 * dt_ * dot(w + wall_spin, n)), dt_);
-      couple = spring.couple;
-      c_.rolling_moment.set(k, spring.moment);
+  /// Computes the slab, gives its rows and grains what is theirs, and empties it.
+  void respond() {
+    for (Index m = slab_.count; m % 8 != 0; ++m) {  // lanes without a row hold a grain that does not touch
+      for (Column* column : {&slab_.radius, &slab_.mass, &slab_.contacts}) column->number[m] = column->number[0];
+      slab_.overlap.number[m] = 0;
+      slab_.coefficients[m] = slab_.coefficients[0];
     }
-    c_.torque.set(k, c_.torque.get(k) + couple);
-    double* const sum = reactions_.sum(i);
-    sum[3] += couple.x;
-    sum[4] += couple.y;
-    sum[5] += couple.z;
-    losses.contact.rolling -= dt_ * dot(couple, in.spin);
-    losses.wall_work += dt_ * dot(couple, wall_spin);
+    for (Index m = 0; m < slab_.count; m += pack_size) respond(m);
+    for (Index m = 0; m < slab_.count; ++m) {
+      const auto k = static_cast<std::size_t>(slab_.row[m]);
+      const Vec3 force = get(slab_.force, m);
+      double* const sum = reactions_.sum(slab_.grain[m]);
+      c_.force.set(k, force);
+      sum[0] += force.x;
+      sum[1] += force.y;
+      sum[2] += force.z;
+      if constexpr (friction == Friction::none) {
+        c_.torque.set(k, {});
+      } else {
+        const Vec3 torque = get(slab_.torque, m);
+        c_.torque.set(k, torque);
+        sum[3] += torque.x;
+        sum[4] += torque.y;
+        sum[5] += torque.z;
+        c_.history.set(k, get(slab_.history, m));
+      }
+      if constexpr (friction == Friction::rolling) sum[6] += slab_.rolling_cap.number[m];
+      if constexpr (friction == Friction::spring) c_.rolling_moment.set(k, get(slab_.rolling_moment, m));
+    }
+    slab_.count = 0;
+  }
+
+  /// A pack of the slab. A wall has no inertia and no radius: m* and R* are those of the grain.
+  void respond(Index m) {
+    using std::abs;
+    const auto coefficients = PackCoefficients::from([&](double Law::Coefficients::*member) {
+      return Pack([&](auto lane) { return mix_[slab_.coefficients[m + static_cast<Index>(lane)]].*member; });
+    });
+    const Pack radius = slab_.radius.load(m), overlap = slab_.overlap.load(m), lever = radius - overlap;
+    const Pack turning = slab_.wall_spin.load(m), on = select(overlap > 0, Pack(1.0), Pack(0.0));
+    const PackVec3 n = slab_.normal.load(m), point = slab_.place.load(m) + lever * n;
+    const PackVec3 wall_velocity{-turning * point.y, turning * point.x, slab_.wall_speed.load(m)};
+    PackVec3 v = slab_.velocity.load(m) - wall_velocity, spin;
+    if constexpr (friction != Friction::none) {
+      spin = slab_.spin.load(m);
+      v += lever * cross(spin, n);
+    }
+    ContactInputOf<Pack> in{overlap, radius, slab_.mass.load(m), dot(v, n), {}, {}};
+    const PackVec3 wall_spin{Pack(0.0), Pack(0.0), turning};
+    if constexpr (friction != Friction::none) {
+      in.tangential_velocity = v - in.approach_velocity * n;
+      const PackVec3 stored = slab_.history.load(m), followed = follow_normal(stored, slab_.before.load(m), n);
+      in.displacement = spin_about_normal(followed, n, 0.25 * step_.dt * dot(spin + wall_spin, n)) +
+                        slip_time(stored, overlap, in.approach_velocity, step_.dt) * in.tangential_velocity;
+    }
+    const ContactResponseOf<Pack> out = Law::respond(coefficients, in);
+    PackVec3 force = -out.normal * n;
+    const Pack span = on * step_.dt;
+    losses_.normal_damping += span * (out.normal - out.elastic_normal) * in.approach_velocity;
+    if constexpr (friction != Friction::none) {
+      force += out.tangential;
+      PackVec3 torque = lever * cross(n, out.tangential);
+      slab_.history.store(m, out.displacement + (0.5 * step_.dt) * in.tangential_velocity);
+      losses_.tangential_work -= span * dot(out.elastic_tangential, in.tangential_velocity);
+      losses_.tangential_damping += span * dot(out.elastic_tangential - out.tangential, in.tangential_velocity);
+      losses_.sliding += on * out.sliding_loss;
+      if constexpr (friction == Friction::rolling)
+        slab_.rolling_cap.store(m, coefficients.rolling * abs(out.normal));
+      if constexpr (has_couples(friction)) {
+        const PackVec3 felt = couple(m, coefficients.rolling, out, spin, wall_spin);
+        torque += felt;
+        losses_.rolling -= span * dot(felt, spin - wall_spin);
+        wall_work_ += span * dot(felt, wall_spin);
+      }
+      slab_.torque.store(m, torque);
+    }
+    wall_work_ += span * dot(force, wall_velocity);
+    slab_.force.store(m, force);
+  }
+
+  /// Rolling couple on the grains of a pack. The wall has no inertia to share.
+  PackVec3 couple(Index m, const Pack& rolling, const ContactResponseOf<Pack>& response, const PackVec3& spin,
+                  const PackVec3& wall_spin) {
+    using std::abs;
+    const PackVec3 n = slab_.normal.load(m);
+    const Pack radius = slab_.radius.load(m), mass = slab_.mass.load(m);
+    RollingInputOf<Pack> in{spin - wall_spin, n, abs(response.normal),
+                            response.elastic_normal / (slab_.overlap.load(m) + tiny), rolling, Pack(0.0),
+                            step_.rolling_damping};
+    if constexpr (friction == Friction::relative) {
+      in.inertia = sphere_inertia(mass, radius) / slab_.contacts.load(m);
+      return relative_couple(in, step_.dt);
+    } else {
+      in.inertia = rocking_inertia(mass, radius);
+      const PackVec3 followed = follow_normal(slab_.rolling_moment.load(m), slab_.before.load(m), n);
+      const PackVec3 moment = spin_about_normal(followed, n, 0.25 * step_.dt * dot(spin + wall_spin, n));
+      const RollingSpringOf<Pack> spring = rolling_spring(in, moment, step_.dt);
+      slab_.rolling_moment.store(m, spring.moment);
+      return spring.couple;
+    }
   }
 
   const WallMix<Law>& mix_;
   State& state_;
   Reactions& reactions_;
   WallContactTable& c_;
-  double dt_, rolling_damping_;
+  const ForceStep step_;
+  WallSlab slab_{};
+  PackLosses losses_;
+  Pack wall_work_ = 0;
+  Index crossed_ = -1;
 };
 
 /// Pre: fold_reactions ran; dt as in evaluate_contacts.
@@ -178,36 +241,15 @@ private:
 /// Throws PhysicsError when a grain's centre has gone through a wall.
 template <class Law, Friction friction>
 void evaluate_walls(const WallMix<Law>& mix, State& state, Reactions& reactions, double dt, double rolling_damping) {
-  const WallContactTable& c = state.wall_contacts;
-  const auto grains = static_cast<Index>(c.grain.size());
   const WallLosses sum = reduce_blocks(
-      grains, WallLosses{},
+      static_cast<Index>(state.wall_contacts.grain.size()), WallLosses{},
       [&](Index begin, Index end) {
-        WallLosses losses;
-        const WallRows<Law, friction> rows(mix, state, reactions, {dt, rolling_damping});
-        for (Index g = begin; g < end; ++g) {
-          const auto s = static_cast<std::size_t>(g);
-          rows.evaluate(c.grain[s], c.begin[s], c.begin[s + 1], losses);
-        }
-        return losses;
+        return WallPass<Law, friction>(mix, state, reactions, {dt, rolling_damping}).evaluate(begin, end);
       },
-      [](WallLosses a, const WallLosses& b) {
-        a.contact = a.contact + b.contact;
-        a.wall_work += b.wall_work;
-        a.crossed = std::max(a.crossed, b.crossed);
-        return a;
-      });
+      [](const WallLosses& a, const WallLosses& b) { return a + b; });
   book(sum.contact, state.energy);
   state.energy.wall_work += sum.wall_work;
-  if (sum.crossed >= 0) {
-    const auto s = static_cast<std::size_t>(sum.crossed);
-    const Vec3 x = state.particles.position.get(s);
-    std::ostringstream text;
-    text << "grain " << state.particles.id[s] << " went through a wall at (" << x.x << ", " << x.y << ", " << x.z
-         << ") m in step " << state.step
-         << ". Likely cause: the wall is too soft for the load, or the time step too long.";
-    throw PhysicsError(text.str());
-  }
+  if (sum.crossed >= 0) report_crossing(state, sum.crossed);
 }
 
 }  // namespace wedge

@@ -94,16 +94,16 @@ public:
 
 private:
   bool free_at(Vec3 x, double radius) const {
-    const Index column = grid_.column(x.x), row = grid_.row(x.y), level = grid_.level(x.z);
-    for (Index l = std::max(0, level - 1); l <= std::min(grid_.nz() - 1, level + 1); ++l)
-      for (Index r = std::max(0, row - 1); r <= std::min(grid_.ny() - 1, row + 1); ++r)
-        for (Index c = std::max(0, column - 1); c <= std::min(grid_.nx() - 1, column + 1); ++c)
-          for (const Index other : cells_[static_cast<std::size_t>((l * grid_.ny() + r) * grid_.nx() + c)]) {
-            const double reach = radius + bodies_[static_cast<std::size_t>(other)].radius;
-            const Vec3 apart = places_[static_cast<std::size_t>(other)] - x;
-            if (dot(apart, apart) < reach * reach) return false;
-          }
-    return true;
+    bool free = true;
+    grid_.for_each_run_around(x, [&](Index first, Index last) {
+      for (Index cell = first; free && cell <= last; ++cell)
+        for (const Index other : cells_[static_cast<std::size_t>(cell)]) {
+          const double reach = radius + bodies_[static_cast<std::size_t>(other)].radius;
+          const Vec3 apart = places_[static_cast<std::size_t>(other)] - x;
+          free = free && !(dot(apart, apart) < reach * reach);
+        }
+    });
+    return free;
   }
 
   const State& state_;

@@ -38,36 +38,25 @@ public:
       : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()), axis_(axis) {}
 
   void around(Index i, Found& found) const {
-    const CellGrid& g = s_.grid;
     const Vec3 x = p_.position.get(at(i));
-    const Index column = g.column(x.x), row = g.row(x.y), level = g.level(x.z);
-    const Index column_low = std::max(0, column - 1), column_high = std::min(g.nx() - 1, column + 1);
     const auto before = found.second.size();
-    for (Index l = std::max(0, level - 1); l <= std::min(g.nz() - 1, level + 1); ++l) {
-      for (Index r = std::max(0, row - 1); r <= std::min(g.ny() - 1, row + 1); ++r) {
-        const Index cell = (l * g.ny() + r) * g.nx();
-        for (Index j = s_.grain_begin[at(cell + column_low)]; j < s_.grain_begin[at(cell + column_high) + 1]; ++j)
-          if (p_.id[at(j)] > p_.id[at(i)]) consider(i, j, j, x, found);
-      }
-    }
-    if (images_.count() > 0) images_around(i, x, column_low, column_high, row, level, found);
+    s_.grid.for_each_run_around(x, [&](Index first, Index last) {
+      for (Index j = s_.grain_begin[at(first)]; j < s_.grain_begin[at(last) + 1]; ++j)
+        if (p_.id[at(j)] > p_.id[at(i)]) consider(i, j, j, x, found);
+    });
+    if (images_.count() > 0) images_around(i, x, found);
     found.rows_of_grain.push_back(static_cast<Index>(found.second.size() - before));
   }
 
 private:
-  void images_around(Index i, Vec3 x, Index column_low, Index column_high, Index row, Index level,
-                     Found& found) const {
-    const CellGrid& g = s_.grid;
-    for (Index l = std::max(0, level - 1); l <= std::min(g.nz() - 1, level + 1); ++l) {
-      for (Index r = std::max(0, row - 1); r <= std::min(g.ny() - 1, row + 1); ++r) {
-        const Index cell = (l * g.ny() + r) * g.nx();
-        for (Index q = s_.image_begin[at(cell + column_low)]; q < s_.image_begin[at(cell + column_high) + 1]; ++q) {
-          const Index m = s_.image_order[at(q)];
-          const Index owner = images_.owner[at(m)];
-          if (ours(i, owner, images_.turn[at(m)])) consider(i, owner, n_ + m, x, found);
-        }
+  void images_around(Index i, Vec3 x, Found& found) const {
+    s_.grid.for_each_run_around(x, [&](Index first, Index last) {
+      for (Index q = s_.image_begin[at(first)]; q < s_.image_begin[at(last) + 1]; ++q) {
+        const Index m = s_.image_order[at(q)];
+        const Index owner = images_.owner[at(m)];
+        if (ours(i, owner, images_.turn[at(m)])) consider(i, owner, n_ + m, x, found);
       }
-    }
+    });
   }
 
   /// Is the pair of grain i and the copy of `owner` at this turn computed, and from the side of i? One side

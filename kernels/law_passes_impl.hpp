@@ -56,7 +56,7 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
       if (!w.touching[k]) continue;
       const int wall = state.vessel.carrier(w.feature[k]);
       if (wall < 0) continue;
-      const auto coefficients = walls.coefficients(p.material[i], state.vessel, wall);
+      const auto& coefficients = walls[walls.slot(p.material[i], wall)];
       sum.normal += Law::normal_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k]);
       sum.tangential +=
           Law::tangential_energy(coefficients, p.radius[i], p.mass[i], w.overlap[k], norm(w.history.get(k)));
@@ -76,7 +76,7 @@ inline constexpr bool is_total_coulomb<TotalCoulomb<Law>> = true;
 template <class Law>
 LawPasses make_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
   const auto table = prepare_table<Law>(scene);
-  const WallMix<Law> walls{table};
+  const WallMix<Law> walls(table, state.vessel);
   LawPasses passes;
   passes.elastic_energy = [table, walls](const State& s, const std::function<bool(Index)>& counts) {
     return elastic_energy<Law>(table, walls, s, counts);

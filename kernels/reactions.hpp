@@ -25,6 +25,7 @@ struct Reactions {
   const double* sum(Index s) const { return sums.data() + sum_size * static_cast<std::size_t>(s); }
   Vec3 force(Index s) const { return {sum(s)[0], sum(s)[1], sum(s)[2]}; }
   Vec3 torque(Index s) const { return {sum(s)[3], sum(s)[4], sum(s)[5]}; }
+  double rolling_cap(Index s) const { return sum(s)[6]; }
 
   Array<Index> target;        // per row: the sum for what its `second` feels
   Array<Index> guests_begin;  // per tile: its first guest sum; one entry more than there are tiles

@@ -5,6 +5,7 @@
 // by number costs more than the law itself (perf/README.md).
 #pragma once
 
+#include "core/material.hpp"
 #include "core/particles.hpp"
 #include "kernels/reactions.hpp"
 
@@ -44,15 +45,23 @@ WEDGE_INLINE void store_columns(const Eight (&records)[8], Column* const (&to)[c
   for (std::size_t c = 0; c < columns; ++c) *reinterpret_cast<Eight*>(to[c]->number + row) = turned[c];
 }
 
-/// Collects the rows of grains first[0 .. rows-1] and second[0 .. rows-1], eight at a time; rows beyond the last
-/// repeat it. Pre: 0 < rows <= slab_size.
+/// The grains of the rows of a slab.
+struct SlabRows {
+  const Index *first, *second;
+  const Index* soon;  // `second` of rows that come soon, as many: their grains are fetched while these are collected
+  Index count;
+};
+
+/// Collects rows, eight at a time; rows beyond the last repeat it. Pre: 0 < rows.count <= slab_size.
 template <bool alike, bool spinning>
-inline void collect(const Seen* seen, const Index* first, const Index* second, Index rows, SeenSlab& s) {
-  for (Index row = 0; row < rows; row += 8) {
+inline void collect(const Seen* seen, const SlabRows& rows, SeenSlab& s) {
+  for (Index row = 0; row < rows.count; row += 8) {
     Eight motion[8], spins[8], difference[8];
     for (Index r = 0; r < 8; ++r) {
-      const Index k = std::min(row + r, rows - 1);
-      const Seen &i = seen[first[k]], &j = seen[second[k]];
+      const Index k = std::min(row + r, rows.count - 1);
+      const Seen &i = seen[rows.first[k]], &j = seen[rows.second[k]];
+      __builtin_prefetch(&seen[rows.soon[k]]);
+      __builtin_prefetch(&seen[rows.soon[k]].angular_velocity);
       motion[r] = *reinterpret_cast<const UnalignedEight*>(&i) - *reinterpret_cast<const UnalignedEight*>(&j);
       if constexpr (spinning) {
         const Four wi = *reinterpret_cast<const Four*>(&i.angular_velocity),
@@ -66,9 +75,7 @@ inline void collect(const Seen* seen, const Index* first, const Index* second, I
         s.radius_second.number[row + r] = j.radius;
         s.mass_first.number[row + r] = i.mass;
         s.mass_second.number[row + r] = j.mass;
-        const auto a = static_cast<Index>(std::max(i.material, j.material)),
-                   b = static_cast<Index>(std::min(i.material, j.material));
-        s.materials[row + r] = a * (a + 1) / 2 + b;
+        s.materials[row + r] = PairTable<double>::slot(static_cast<int>(i.material), static_cast<int>(j.material));
       }
     }
     store_columns<6>(motion, {&s.apart.x, &s.apart.y, &s.apart.z, &s.speed.x, &s.speed.y, &s.speed.z}, row);

@@ -34,8 +34,10 @@ public:
 
   /// Makes the first neighbour list and the forces of the first moment. Throws PhysicsError.
   void start(State& state, double dt);
-  /// One step of length dt [s]. Throws PhysicsError when the physics breaks down; the state is then that moment's.
-  void advance(State& state, double dt);
+  /// `most` steps of length dt [s], or fewer: the step in which a grain leaves is the last one. Returns their number.
+  /// The result is that of single steps, to the bit. Throws PhysicsError when the physics breaks down; the state is
+  /// then that moment's.
+  int advance(State& state, double dt, int most = 1);
   /// Makes the next step renew the neighbour list.
   static void expire_list(State& state);
   /// Takes walls away and puts others in place, by number; the energy in contacts with the former goes with them.

@@ -28,14 +28,14 @@ Scene scene_of(const Case& c) {
 }
 
 /// Grains of several sizes in the domain; overlaps do not matter here but stay small.
-std::vector<Grain> cloud(const Scene& scene, int count, std::uint64_t seed) {
+std::vector<Grain> cloud(const Scene& scene, int count, std::uint64_t seed, double height = 0.02) {
   RandomStream random(seed, 0);
   const Symmetry symmetry = scene.domain.kind == DomainKind::sector ? Symmetry::rotation(scene.domain.order)
                             : scene.domain.kind == DomainKind::slot ? Symmetry::translation(scene.domain.slot_width)
                                                                     : Symmetry::none();
   std::vector<Grain> grains;
   while (static_cast<int>(grains.size()) < count) {
-    Vec3 x{random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(0, 0.02)};
+    Vec3 x{random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02), random.uniform(0, height)};
     x = symmetry.turn_point(x, symmetry.turns_home(x));
     Grain g{
         0.001 * random.uniform(1, 2), x, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, {}};
@@ -129,7 +129,8 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
        {Case{DomainKind::full, 1, AxisRule::clamp}, Case{DomainKind::slot, 1, AxisRule::clamp},
         Case{DomainKind::sector, 4, AxisRule::images}, Case{DomainKind::sector, 3, AxisRule::clamp}}) {
     const Scene scene = scene_of(c);
-    Experiment e(scene, cloud(scene, 400 / c.order, 7), 1e-6);
+    // Enough for several tiles, whose grains act on each other's and on images of each other's.
+    Experiment e(scene, cloud(scene, 3 * tile_size, 7, 0.15 * c.order), 1e-6);
     e.run(20);
     const State& s = e.state;
     const auto n = static_cast<std::size_t>(s.particles.count());

@@ -206,7 +206,7 @@ TEST_CASE("a run whose energy budget is broken warns, then stops, at the same st
     const std::string whole = std::string("whole") + step, parts = std::string("parts") + step;
     const std::string end = error_of([&] { command_run(pot(whole, 1, step)); });
     RunArguments part = pot(parts, 1, step);
-    part.until = 0.16;
+    part.until = 0.15;
     CHECK(error_of([&] { command_run(part); }) == "");
     part.until.reset();
     CHECK(error_of([&] { command_resume(part); }) == end);

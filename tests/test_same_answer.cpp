@@ -5,6 +5,7 @@
 #include "apps/commands.hpp"
 #include "apps/simulation.hpp"
 #include "core/parallel.hpp"
+#include "kernels/reactions.hpp"
 #include "tests/catch.hpp"
 #include "tests/same_run.hpp"
 #include "tests/scratch_folder.hpp"
@@ -14,11 +15,11 @@ using namespace wedge::test;
 
 namespace {
 
-/// A sector with more grains than four blocks of a loop hold, so that eight threads have something to share.
-const std::vector<std::string> crowd = {"wall.shell.profile=[[0.06, 0], [0.06, 0.3]]",
+/// A sector with more grains than four tiles hold, so that eight threads have something to share.
+const std::vector<std::string> crowd = {"wall.shell.profile=[[0.06, 0], [0.06, 0.6]]",
                                         "wall.floor.profile=[[0.02, 0], [0.06, 0]]",
-                                        "particles.count=13002",
-                                        "particles.region={r=[0, 0.06], z=[0, 0.25]}",
+                                        "particles.count=26004",
+                                        "particles.region={r=[0, 0.06], z=[0, 0.5]}",
                                         "domain.gravity=[0, 0, -60]",
                                         "stage.settle.until=0.014",
                                         "stage.discharge.until=0.004",
@@ -69,8 +70,7 @@ TEST_CASE("1, 2, 3, 4 and 8 threads give the same bits", "[same]") {
     const std::string one = place(scratch, "1");
     REQUIRE(command_run(arguments_for(one, 1, joined(crowd, option))) == exit_code::ok);
     const State state = last_state(one);
-    CHECK(state.particles.count() > 4 * block_size);
-    CHECK(state.contacts.rows() > 4 * block_size);
+    CHECK(tile_count(state.particles.count()) > 4);
     CHECK(state.list_builds > 3);
     // All numbers of threads with the first option, the extremes with the others.
     for (const int threads : option.empty() ? std::vector<int>{2, 3, 4, 8} : std::vector<int>{4, 8}) {

@@ -74,8 +74,9 @@ double drift_on_plate(int steps) {
   const auto row =
       static_cast<std::size_t>(std::find(c.touching.begin(), c.touching.end(), 1) - c.touching.begin());
   c.history.set(row, stress);
-  WallMix<Law> mix{PairTable<Law::Coefficients>(1)};
-  mix.table(0, 0) = Law::prepare(s.materials[0], s.materials[0], s.interactions(0, 0), s.contact);
+  PairTable<Law::Coefficients> table(1);
+  table(0, 0) = Law::prepare(s.materials[0], s.materials[0], s.interactions(0, 0), s.contact);
+  const WallMix<Law> mix(table, e.state.vessel);
   Reactions reactions;
   map_reactions(e.state, AxisRule::clamp, reactions);
   std::fill(reactions.sums.begin(), reactions.sums.end(), 0.0);
@@ -83,6 +84,7 @@ double drift_on_plate(int steps) {
   for (int k = 0; k <= steps; ++k) {
     const Vec3 x = turned(place, axis, rate * k * dt);
     p.position.set(0, x);
+    p.seen[0].position = x;
     p.seen[0].velocity = rate * cross(axis, x);
     p.seen[0].angular_velocity = rate * axis;
     evaluate_walls<Law, Friction::sliding>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
