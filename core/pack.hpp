@@ -29,6 +29,16 @@ WEDGE_INLINE Pack select(const Pack::mask_type& condition, const Pack& yes, Pack
 }
 WEDGE_INLINE bool any_of(const Pack::mask_type& condition) { return simd::any_of(condition); }
 
+/// Calls visit(lane) for each lane where the condition holds, ascending.
+template <class Visit>
+WEDGE_INLINE void for_each_lane(Pack::mask_type condition, Visit&& visit) {
+  while (simd::any_of(condition)) {
+    const int lane = simd::find_first_set(condition);
+    condition[static_cast<std::size_t>(lane)] = false;
+    visit(static_cast<Index>(lane));
+  }
+}
+
 using PackVec3 = Vector3<Pack>;
 
 /// A pack from memory, or one number.

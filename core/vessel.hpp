@@ -40,6 +40,7 @@ public:
   /// Pre: every profile has at least two points, neighbours distinct. Side planes come from scene.domain.
   explicit Vessel(const Scene& scene);
 
+  bool slot() const { return slot_; }
   int wall_count() const { return static_cast<int>(walls_.size()); }
   const WallDescription& wall(int w) const { return walls_[static_cast<std::size_t>(w)]; }
   int wall_index(const std::string& name) const;  // -1: no such wall

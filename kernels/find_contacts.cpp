@@ -3,6 +3,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/pack.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "kernels/integrate.hpp"
@@ -40,9 +41,17 @@ public:
   void around(Index i, Found& found) const {
     const Vec3 x = p_.position.get(at(i));
     const auto before = found.second.size();
+    const PackVec3 here{Pack(x.x), Pack(x.y), Pack(x.z)};
+    const Pack reach = s_.reach[at(i)];
     s_.grid.for_each_run_around(x, [&](Index first, Index last) {
-      for (Index j = s_.grain_begin[at(first)]; j < s_.grain_begin[at(last) + 1]; ++j)
-        if (p_.id[at(j)] > p_.id[at(i)]) consider(i, j, j, x, found);
+      const Index end = s_.grain_begin[at(last) + 1];
+      for (Index j = s_.grain_begin[at(first)]; j < end; j += pack_size) {
+        const PackVec3 d = PackVec3{load(&s_.places.x[at(j)]), load(&s_.places.y[at(j)]), load(&s_.places.z[at(j)])} - here;
+        const Pack both = reach + load(&s_.reach[at(j)]);
+        for_each_lane(dot(d, d) < both * both, [&](Index lane) {
+          if (j + lane < end && p_.id[at(j + lane)] > p_.id[at(i)]) consider(i, j + lane, j + lane, x, found);
+        });
+      }
     });
     if (images_.count() > 0) images_around(i, x, found);
     found.rows_of_grain.push_back(static_cast<Index>(found.second.size() - before));
@@ -91,6 +100,20 @@ private:
   Index n_;
   AxisRule axis_;
 };
+
+/// Copies what the search reads of all grains, with a pack behind the last that is near nobody.
+void list_places(const Particles& p, NeighbourScratch& s) {
+  const Index n = p.count();
+  for (Array<double>* field : {&s.places.x, &s.places.y, &s.places.z, &s.reach}) resize_with_room(*field, n + pack_size);
+  for_each(n, [&](Index i) {
+    s.places.set(at(i), p.position.get(at(i)));
+    s.reach[at(i)] = p.radius[at(i)] + p.list_margin[at(i)];
+  });
+  for (Index i = n; i < n + pack_size; ++i) {
+    s.places.set(at(i), {1e30, 0, 0});
+    s.reach[at(i)] = 0;
+  }
+}
 
 /// Places images in the cells of the grid: a list of images per cell, in image order.
 void bin_images(const State& state, NeighbourScratch& s) {
@@ -204,6 +227,7 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
 void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules) {
   const Index n = state.particles.count();
   bin_images(state, scratch);
+  list_places(state.particles, scratch);
   ContactTable& c = state.contacts;
   set_aside(c, scratch);
 

@@ -1,6 +1,7 @@
 // find_wall_contacts.cpp: which wall features are near which grain, with the histories of the list before.
 #include <sstream>
 
+#include "core/pack.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "kernels/neighbours.hpp"
@@ -15,6 +16,45 @@ struct FoundWalls {
   std::vector<std::int32_t> feature;
   Index deep_grain = -1;  // a grain that reaches too far into a wall, and the feature it reaches into
   std::int32_t deep_feature = -1;
+};
+
+/// Which grains of a pack are within reach of any of the features: a quick look, so that the many grains that are near
+/// no wall are not asked feature by feature.
+class NearWalls {
+public:
+  NearWalls(const Vessel& vessel, const std::vector<std::int32_t>& features) : slot_(vessel.slot()) {
+    for (const std::int32_t f : features) features_.push_back({&vessel.feature(f), vessel.travel(vessel.feature(f).wall)});
+  }
+  Pack::mask_type operator()(const PackVec3& x, const Pack& reach) const {
+    using std::abs, std::max, std::min, std::sqrt;
+    const Pack r = slot_ ? x.x : sqrt(x.x * x.x + x.y * x.y), wide = 1.000001 * reach;  // more than round-off
+    Pack::mask_type near(false);
+    for (const Placed& placed : features_) {
+      const WallFeature& f = *placed.feature;
+      Pack distance;
+      if (f.kind == WallFeature::Kind::plane) {
+        distance = abs(dot(x, PackVec3{Pack(f.plane_normal.x), Pack(f.plane_normal.y), Pack(f.plane_normal.z)}) -
+                       f.plane_offset);
+      } else if (f.kind == WallFeature::Kind::core) {
+        distance = abs(r - f.core_radius);
+      } else {  // a segment; an edge is one of no length
+        const Pack u = r - f.start.x(), z = x.z - placed.travel - f.start.y();
+        const Pack along = max(Pack(0.0), min(Pack(f.length), u * f.direction.x() + z * f.direction.y()));
+        const Pack du = u - along * f.direction.x(), dz = z - along * f.direction.y();
+        distance = sqrt(du * du + dz * dz);
+      }
+      near = near || distance < wide;
+    }
+    return near;
+  }
+
+private:
+  struct Placed {
+    const WallFeature* feature;
+    double travel;  // m, upwards
+  };
+  bool slot_;
+  std::vector<Placed> features_;
 };
 
 void report_overlap(const State& state, Index i, std::int32_t f) {
@@ -71,11 +111,13 @@ void find_wall_contacts(State& state, NeighbourScratch& scratch) {
   for (int f = 0; f < vessel.feature_count(); ++f)
     if (vessel.active(f)) active.push_back(f);
 
+  const NearWalls near_walls(vessel, active);
   std::vector<FoundWalls> found(at(block_count(n)));
   for_each_block(block_count(n), [&](Index b) {
     FoundWalls& out = found[at(b)];
-    for (Index i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) {
-      const double reach = p.radius[at(i)] + p.list_margin[at(i)] + state.wall_margin;
+    const Index end = std::min(n, (b + 1) * block_size);
+    const auto look = [&](Index i) {
+      const double reach = scratch.reach[at(i)] + state.wall_margin;
       const auto before = out.feature.size();
       for (const std::int32_t f : active) {
         const WallProximity near = vessel.proximity(f, p.position.get(at(i)));
@@ -84,9 +126,16 @@ void find_wall_contacts(State& state, NeighbourScratch& scratch) {
         const bool deep = near.minimum && near.distance < (1 - wall_overlap_limit) * p.radius[at(i)];
         if (deep && out.deep_grain < 0) out.deep_grain = i, out.deep_feature = f;
       }
-      if (out.feature.size() == before) continue;
+      if (out.feature.size() == before) return;
       out.grain.push_back(i);
       out.rows_of_grain.push_back(static_cast<Index>(out.feature.size() - before));
+    };
+    for (Index i = b * block_size; i < end; i += pack_size) {
+      const Vec3Array& x = scratch.places;
+      const Pack reach = load(&scratch.reach[at(i)]) + state.wall_margin;
+      for_each_lane(near_walls({load(&x.x[at(i)]), load(&x.y[at(i)]), load(&x.z[at(i)])}, reach), [&](Index lane) {
+        if (i + lane < end) look(i + lane);
+      });
     }
   });
 

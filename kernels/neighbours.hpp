@@ -15,6 +15,8 @@ struct NeighbourScratch {
   Array<Index> cell, order;               // per grain: its cell; old slot of each new slot
   Array<Index> old_slot;                  // per grain: where it stood before the last sort
   Array<Index> grain_begin;               // per cell: first grain (grains are sorted by cell)
+  Vec3Array places;                       // per grain, m; a pack of places far away behind the last
+  Array<double> reach;                    // per grain: radius and margin, m; as many
   Array<Index> image_begin, image_order;  // per cell: its images, in image order
   Array<double> real_buffer;
   Array<std::int32_t> whole_buffer;
@@ -60,7 +62,7 @@ void refresh_images(State& state);
 /// Throws PhysicsError when two grains overlap by more than `overlap_limit` of the smaller radius.
 void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules);
 
-/// Finds all wall features near each grain, histories carried over.
+/// Finds all wall features near each grain, histories carried over. Pre: find_contacts listed places and reach.
 /// Throws PhysicsError when a grain overlaps a wall by more than `wall_overlap_limit` of its radius.
 void find_wall_contacts(State& state, NeighbourScratch& scratch);
 
