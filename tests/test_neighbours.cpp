@@ -1,4 +1,4 @@
-// test_neighbours.cpp: neighbour lists, images and incoming lists against brute force.
+// test_neighbours.cpp: neighbour lists, images and sums of forces against brute force.
 #include <map>
 #include <set>
 #include <tuple>
