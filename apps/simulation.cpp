@@ -200,8 +200,8 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
   return std::nullopt;
 }
 
-/// Steps until something may have to be done between two of them: all that ends a run or a stage, or is recorded, by
-/// its time. Where that is near, one.
+/// Steps until something may have to be done between two of them: all that ends a run or a stage, or is recorded,
+/// by its time. Where that is near, one.
 int Simulation::steps_to_look(const RunLimits& limits) const {
   double due = recorder_->next_due(memory_);
   if (limits.until) due = std::min(due, *limits.until);

@@ -9,8 +9,8 @@
 
 namespace wedge {
 
-/// Cells are numbered brick by brick, so that cells with near numbers are near each other in all directions; within a
-/// brick, and brick by brick, x is fastest and z slowest. A point outside the box belongs to the nearest cell.
+/// Cells are numbered brick by brick, so that cells with near numbers are near each other in all directions; within
+/// a brick, and brick by brick, x is fastest and z slowest. A point outside the box belongs to the nearest cell.
 class CellGrid {
 public:
   static constexpr Index brick_edge = 8;  // cells

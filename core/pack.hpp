@@ -1,7 +1,8 @@
-// pack.hpp: as many numbers as the processor computes with one instruction, and records of eight turned into columns.
+// pack.hpp: as many numbers as the processor computes with one instruction, and records of eight turned into
+// columns.
 //
-// Laws are written once for a number type `Real`: double for one contact, a pack for as many as fit. Packs are those
-// of the Parallelism TS 2 in the standard library (std::experimental::native_simd).
+// Laws are written once for a number type `Real`: double for one contact, a pack for as many as fit. Packs are
+// those of the Parallelism TS 2 in the standard library (std::experimental::native_simd).
 #pragma once
 
 #include <experimental/simd>
@@ -89,7 +90,8 @@ WEDGE_INLINE void transpose(const Eight (&in)[8], Eight (&out)[8]) {
         pairs[m + 1] = __builtin_shufflevector(a, b, 1, 5, 3, 7);
       }
       for (int m = 0; m < 2; ++m) {
-        reinterpret_cast<Four*>(&out[4 * column + m])[row] = __builtin_shufflevector(pairs[m], pairs[m + 2], 0, 1, 4, 5);
+        reinterpret_cast<Four*>(&out[4 * column + m])[row] =
+            __builtin_shufflevector(pairs[m], pairs[m + 2], 0, 1, 4, 5);
         reinterpret_cast<Four*>(&out[4 * column + m + 2])[row] =
             __builtin_shufflevector(pairs[m], pairs[m + 2], 2, 3, 6, 7);
       }

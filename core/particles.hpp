@@ -1,8 +1,8 @@
 // particles.hpp: the grains, as a structure of arrays, and the one list of their fields.
 //
-// Slots 0 .. count()-1 are the grains of the domain. Slots count() .. count()+images-1 of `position`, `seen`, `radius`,
-// `mass` and `material` are images of grains across a periodic face (see image_map.hpp); all other fields hold grains
-// alone.
+// Slots 0 .. count()-1 are the grains of the domain. Slots count() .. count()+images-1 of `position`, `seen`,
+// `radius`, `mass` and `material` are images of grains across a periodic face (see image_map.hpp); all other fields
+// hold grains alone.
 #pragma once
 
 #include <cstdint>

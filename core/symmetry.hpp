@@ -52,6 +52,15 @@ public:
   /// Distance [m] from the copy k of point p (p in the domain) to the domain; 0 when it lies inside.
   double distance_to_domain(Vec3 p, int k) const;
 
+  /// Distance [m] from a point of the domain to its nearest periodic face: no copy of anything is nearer to it.
+  /// Pre: periodic().
+  double distance_to_face(Vec3 p) const {
+    if (kind_ == Kind::translation) return std::fmin(p.y, width_ - p.y);
+    const Vec3 q = turn_vector(p, -1);  // the face phi = angle turned onto the x axis
+    const double to_axis = std::sqrt(p.x * p.x + p.y * p.y);
+    return std::fmin(p.x > 0 ? std::fabs(p.y) : to_axis, q.x > 0 ? std::fabs(q.y) : to_axis);
+  }
+
 private:
   Symmetry(Kind kind, int order, double width) : kind_(kind), order_(order), width_(width) {}
   Kind kind_;

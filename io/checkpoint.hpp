@@ -26,7 +26,8 @@ struct CheckpointExtra {
 std::string checkpoint_path(const std::string& folder, std::int64_t step);
 
 /// Writes the state in doubles, with what contacts saw in the last force step, from which their forces can be had.
-/// Throws FileError. Pre: every field has count() entries, those of images have count() + images; between two steps.
+/// Throws FileError. Pre: every field has count() entries, those of images have count() + images; between two
+/// steps.
 void write_checkpoint(const std::string& path, const State& state, const CheckpointExtra& extra);
 
 /// Fills `state` from a checkpoint. Throws FileError when the file is missing, cut short or changed, or belongs to

@@ -26,8 +26,8 @@ struct FrameInfo {
 void write_particle_frame(const std::string& path, const State& state, const FrameInfo& info);
 
 /// Writes the rows of state.contacts that touch (row_overlap > 0); contacts with walls are left out. A contact
-/// across a face is drawn to the image. Throws FileError. Pre: image positions and normals are those of the last force
-/// step; `forces` has the force on the first grain of each row [N].
+/// across a face is drawn to the image. Throws FileError. Pre: image positions and normals are those of the last
+/// force step; `forces` has the force on the first grain of each row [N].
 void write_contact_frame(const std::string& path, const State& state, const Vec3Array& forces,
                          const FrameInfo& info);
 

@@ -1,5 +1,5 @@
-// contact_forces.hpp: the force of each contact at this moment, for whoever looks. The contact pass keeps none: it adds
-// them up and lets them go.
+// contact_forces.hpp: the force of each contact at this moment, for whoever looks. The contact pass keeps none: it
+// adds them up and lets them go.
 #pragma once
 
 #include "core/parallel.hpp"
@@ -9,15 +9,16 @@
 
 namespace wedge {
 
-/// By this part a displacement is taken as longer than it is, so that a contact that slides, whose displacement was cut
-/// back to the limit, is seen to slide in spite of round-off. (A dashpot sets in just below the limit.)
+/// By this part a displacement is taken as longer than it is, so that a contact that slides, whose displacement was
+/// cut back to the limit, is seen to slide in spite of round-off. (A dashpot sets in just below the limit.)
 inline constexpr double sliding_margin = 1e-10;
 
 /// Force on the first grain of each row [N] as it was in the last force step, from what that step left: places,
 /// velocities seen, and displacements less the half step by which they are stored ahead. Zero for rows that do not
 /// touch. Exact but for round-off and `sliding_margin`.
 template <class Law>
-Vec3Array contact_forces(const PairTable<typename Law::Coefficients>& table, Friction friction, const State& state) {
+Vec3Array contact_forces(const PairTable<typename Law::Coefficients>& table, Friction friction,
+                         const State& state) {
   const Particles& p = state.particles;
   const ContactTable& c = state.contacts;
   Vec3Array forces;
@@ -31,8 +32,9 @@ Vec3Array contact_forces(const PairTable<typename Law::Coefficients>& table, Fri
     const Vec3 n = (1 / distance) * d;
     const double lever_i = i.radius - 0.5 * overlap, lever_j = j.radius - 0.5 * overlap;
     const Vec3 v = i.velocity - j.velocity + cross(lever_i * i.angular_velocity + lever_j * j.angular_velocity, n);
-    ContactInput in{overlap, i.radius * j.radius / (i.radius + j.radius), i.mass * j.mass / (i.mass + j.mass),
-                    dot(v, n), {}, {}};
+    ContactInput in{
+        overlap, i.radius * j.radius / (i.radius + j.radius), i.mass * j.mass / (i.mass + j.mass), dot(v, n), {},
+        {}};
     in.tangential_velocity = v - in.approach_velocity * n;
     in.displacement = (1 + sliding_margin) * (c.history.get(row) - state.history_ahead * in.tangential_velocity);
     if (friction == Friction::none) in.tangential_velocity = in.displacement = {};

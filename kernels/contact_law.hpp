@@ -12,27 +12,27 @@
 
 namespace wedge {
 
-/// One contact, or a pack of them, as a law sees it. n points from the first body to the second; forces are those on
-/// the first.
+/// One contact, or a pack of them, as a law sees it. n points from the first body to the second; forces are those
+/// on the first.
 template <class Real>
 struct ContactInputOf {
-  Real overlap{};                      // m, >= 0
-  Real effective_radius{};             // m
-  Real effective_mass{};               // kg
-  Real approach_velocity{};            // m/s: v_ij . n, positive while the bodies approach
-  Vector3<Real> tangential_velocity;   // m/s: v_ij less its normal part
-  Vector3<Real> displacement;          // m: stored tangential displacement, already moved on to this moment
+  Real overlap{};                     // m, >= 0
+  Real effective_radius{};            // m
+  Real effective_mass{};              // kg
+  Real approach_velocity{};           // m/s: v_ij . n, positive while the bodies approach
+  Vector3<Real> tangential_velocity;  // m/s: v_ij less its normal part
+  Vector3<Real> displacement;         // m: stored tangential displacement, already moved on to this moment
 };
 using ContactInput = ContactInputOf<double>;
 
 template <class Real>
 struct ContactResponseOf {
-  Real normal{};                      // N: total normal force, positive pushes the bodies apart
-  Real elastic_normal{};              // N: |f_cn|
-  Vector3<Real> tangential;           // N
-  Vector3<Real> displacement;         // m: what is left of the displacement after sliding
-  Vector3<Real> elastic_tangential;   // N: the part of `tangential` that is not viscous
-  Real sliding_loss{};                // J lost by sliding in this step
+  Real normal{};                     // N: total normal force, positive pushes the bodies apart
+  Real elastic_normal{};             // N: |f_cn|
+  Vector3<Real> tangential;          // N
+  Vector3<Real> displacement;        // m: what is left of the displacement after sliding
+  Vector3<Real> elastic_tangential;  // N: the part of `tangential` that is not viscous
+  Real sliding_loss{};               // J lost by sliding in this step
 };
 using ContactResponse = ContactResponseOf<double>;
 

@@ -1,5 +1,5 @@
-// evaluate_contacts.hpp: the contact pass: every row of the contact table computes its force and moves its history on;
-// a tile of grains at a time adds the forces up.
+// evaluate_contacts.hpp: the contact pass: every row of the contact table computes its force and moves its history
+// on; a tile of grains at a time adds the forces up.
 #pragma once
 
 #include "core/parallel.hpp"
@@ -40,11 +40,13 @@ struct PackLosses {
   }
 };
 
-/// The stored vectors of a slab of rows, three numbers a row: in the contact table, or in columns for the rows at the
-/// end of a tile, which do not fill a slab.
+/// The stored vectors of a slab of rows, three numbers a row: in the contact table, or in columns for the rows at
+/// the end of a tile, which do not fill a slab.
 struct StoredVectors {
   double *x = nullptr, *y = nullptr, *z = nullptr;
-  WEDGE_INLINE PackVec3 load(Index row) const { return {wedge::load(x + row), wedge::load(y + row), wedge::load(z + row)}; }
+  WEDGE_INLINE PackVec3 load(Index row) const {
+    return {wedge::load(x + row), wedge::load(y + row), wedge::load(z + row)};
+  }
   WEDGE_INLINE void store(Index row, const PackVec3& v) const {
     wedge::store(x + row, v.x);
     wedge::store(y + row, v.y);
@@ -71,8 +73,8 @@ struct ForceStep {
 /// The displacement grows by the trapezoidal rule from first touch on: what is stored between steps is
 /// delta + (dt/2) v_t, so that the next half step needs no old velocity (kernels/README.md, "Stored displacement").
 template <Friction friction, class Mix>
-inline void approach(const Mix& mix, const ForceStep& step, const SeenSlab& of, const StoredSlab& stored, Index rows,
-                     ContactSlab& to) {
+inline void approach(const Mix& mix, const ForceStep& step, const SeenSlab& of, const StoredSlab& stored,
+                     Index rows, ContactSlab& to) {
   using std::max, std::sqrt;
   for (Index row = 0; row < rows; row += pack_size) {
     const auto pairs = mix.pairs(of, row);
@@ -102,17 +104,17 @@ inline void approach(const Mix& mix, const ForceStep& step, const SeenSlab& of, 
   }
 }
 
-/// Rolling couples of a pack of rows, whose normals are still those of the last step. `losses` grow by the work done
-/// against them. Pre: grains are not taken as alike (Mix::alike is false).
+/// Rolling couples of a pack of rows, whose normals are still those of the last step. `losses` grow by the work
+/// done against them. Pre: grains are not taken as alike (Mix::alike is false).
 template <Friction friction, class Pairs>
-WEDGE_INLINE PackVec3 couples(const Pairs& pairs, const ForceStep& step, const SeenSlab& of, const StoredSlab& stored,
-                              const Column& most_contacts, Index row, const PackVec3& n,
+WEDGE_INLINE PackVec3 couples(const Pairs& pairs, const ForceStep& step, const SeenSlab& of,
+                              const StoredSlab& stored, const Column& most_contacts, Index row, const PackVec3& n,
                               const ContactResponseOf<Pack>& response, const Pack& overlap, Pack& loss) {
   using std::abs;
   const Pack on = select(overlap > 0, Pack(1.0), Pack(0.0));
-  RollingInputOf<Pack> in{of.spin_difference.load(row), n, abs(response.normal),
-                          response.elastic_normal / (overlap + tiny), Pack(pairs.coefficients.rolling), Pack(0.0),
-                          step.rolling_damping};
+  RollingInputOf<Pack> in{
+      of.spin_difference.load(row),     n,         abs(response.normal), response.elastic_normal / (overlap + tiny),
+      Pack(pairs.coefficients.rolling), Pack(0.0), step.rolling_damping};
   const Pack mass_first = of.mass_first.load(row), mass_second = of.mass_second.load(row);
   PackVec3 couple;
   if constexpr (friction == Friction::relative) {
@@ -143,8 +145,12 @@ inline void respond(const Mix& mix, const ForceStep& step, const SeenSlab& of, c
   PackLosses losses = total;
   for (Index row = 0; row < rows; row += pack_size) {
     const auto pairs = mix.pairs(of, row);
-    ContactInputOf<Pack> in{contacts.overlap.load(row), pairs.effective_radius, pairs.effective_mass,
-                            contacts.approach.load(row), {}, {}};
+    ContactInputOf<Pack> in{contacts.overlap.load(row),
+                            pairs.effective_radius,
+                            pairs.effective_mass,
+                            contacts.approach.load(row),
+                            {},
+                            {}};
     const PackVec3 n = contacts.normal.load(row);
     if constexpr (friction != Friction::none) {
       in.tangential_velocity = contacts.tangential_velocity.load(row);
@@ -162,8 +168,8 @@ inline void respond(const Mix& mix, const ForceStep& step, const SeenSlab& of, c
       if constexpr (!Mix::alike) {
         PackVec3 second = (pairs.radius_second - 0.5 * in.overlap) * turning;
         if constexpr (has_couples(friction)) {
-          const PackVec3 couple =
-              couples<friction>(pairs, step, of, stored, most_contacts, row, n, response, in.overlap, losses.rolling);
+          const PackVec3 couple = couples<friction>(pairs, step, of, stored, most_contacts, row, n, response,
+                                                    in.overlap, losses.rolling);
           torque += couple;
           second -= couple;
         }
@@ -239,8 +245,9 @@ public:
     for (Index from = begin; from < end; from += slab_size) {
       const Index rows = std::min(slab_size, end - from);
       if (rows == slab_size) {
-        evaluate_slab(from, rows, {at(c_.history, from), at(c_.normal, from), at(c_.couple, from),
-                                   at(c_.rolling_moment, from)});
+        evaluate_slab(
+            from, rows,
+            {at(c_.history, from), at(c_.normal, from), at(c_.couple, from), at(c_.rolling_moment, from)});
       } else {
         PartSlab<has_couples(friction)> part(c_, static_cast<std::size_t>(from), static_cast<std::size_t>(rows));
         evaluate_slab(from, rows, part.stored());
@@ -265,9 +272,11 @@ private:
     for (Index row = rows; row < (rows + 7) / 8 * 8; ++row) part_two_grains(row);
     if constexpr (friction == Friction::relative)
       for (Index row = 0; row < slab_size; ++row)
-        most_contacts_.number[row] = row < rows ? std::max(contact_count(first[row]), contact_count(second[row])) : 1;
+        most_contacts_.number[row] =
+            row < rows ? std::max(contact_count(first[row]), contact_count(second[row])) : 1;
     approach<friction>(mix_, step_, seen_, stored, rows, contacts_);
-    respond<Law, friction, with_budget>(mix_, step_, seen_, contacts_, stored, most_contacts_, rows, outcome_, losses_);
+    respond<Law, friction, with_budget>(mix_, step_, seen_, contacts_, stored, most_contacts_, rows, outcome_,
+                                        losses_);
     add_to_sums<Mix::alike>(outcome_, first, reactions_.target.data() + from, rows, reactions_.sums.data());
   }
   /// Lanes without a row hold grains that do not touch, so that they add to no sum.
@@ -286,9 +295,9 @@ private:
   Column most_contacts_{};
 };
 
-/// Pre: images are fresh, what contacts see is predicted to the time of the positions, `reactions` fits the list; dt
-/// [s] is the time since the last force step (0: forces at the start, no history grows). Post: each row's history and
-/// normal are those of now; the sums of grains and guests hold what the rows of each tile do to them.
+/// Pre: images are fresh, what contacts see is predicted to the time of the positions, `reactions` fits the list;
+/// dt [s] is the time since the last force step (0: forces at the start, no history grows). Post: each row's
+/// history and normal are those of now; the sums of grains and guests hold what the rows of each tile do to them.
 template <class Law, Friction friction, bool with_budget, class Mix>
 void evaluate_contacts(const Mix& mix, State& state, Reactions& reactions, double dt, double rolling_damping) {
   const ContactTable& c = state.contacts;
@@ -302,7 +311,8 @@ void evaluate_contacts(const Mix& mix, State& state, Reactions& reactions, doubl
         clear(reactions.guests_begin[static_cast<std::size_t>(tile)],
               reactions.guests_begin[static_cast<std::size_t>(tile) + 1]);
         TilePass<Law, friction, with_budget, Mix> pass(mix, {dt, rolling_damping}, state, reactions);
-        return pass.evaluate(c.row_begin[static_cast<std::size_t>(begin)], c.row_begin[static_cast<std::size_t>(end)]);
+        return pass.evaluate(c.row_begin[static_cast<std::size_t>(begin)],
+                             c.row_begin[static_cast<std::size_t>(end)]);
       },
       [](const ContactLosses& a, const ContactLosses& b) { return a + b; });
   state.history_ahead = 0.5 * dt;

@@ -209,9 +209,9 @@ private:
     using std::abs;
     const PackVec3 n = slab_.normal.load(m);
     const Pack radius = slab_.radius.load(m), mass = slab_.mass.load(m);
-    RollingInputOf<Pack> in{spin - wall_spin, n, abs(response.normal),
-                            response.elastic_normal / (slab_.overlap.load(m) + tiny), rolling, Pack(0.0),
-                            step_.rolling_damping};
+    RollingInputOf<Pack> in{
+        spin - wall_spin, n,         abs(response.normal), response.elastic_normal / (slab_.overlap.load(m) + tiny),
+        rolling,          Pack(0.0), step_.rolling_damping};
     if constexpr (friction == Friction::relative) {
       in.inertia = sphere_inertia(mass, radius) / slab_.contacts.load(m);
       return relative_couple(in, step_.dt);
@@ -240,7 +240,8 @@ private:
 /// Post: wall forces are in the table and added to the sums of the grains.
 /// Throws PhysicsError when a grain's centre has gone through a wall.
 template <class Law, Friction friction>
-void evaluate_walls(const WallMix<Law>& mix, State& state, Reactions& reactions, double dt, double rolling_damping) {
+void evaluate_walls(const WallMix<Law>& mix, State& state, Reactions& reactions, double dt,
+                    double rolling_damping) {
   const WallLosses sum = reduce_blocks(
       static_cast<Index>(state.wall_contacts.grain.size()), WallLosses{},
       [&](Index begin, Index end) {

@@ -36,7 +36,13 @@ struct Found {
 class PairSearch {
 public:
   PairSearch(const State& state, const NeighbourScratch& scratch, AxisRule axis)
-      : p_(state.particles), images_(state.images), s_(scratch), n_(state.particles.count()), axis_(axis) {}
+      : p_(state.particles),
+        images_(state.images),
+        symmetry_(state.symmetry),
+        s_(scratch),
+        n_(state.particles.count()),
+        axis_(axis),
+        widest_(n_ > 0 ? 1.000001 * *std::max_element(scratch.reach.begin(), scratch.reach.end()) : 0) {}
 
   void around(Index i, Found& found) const {
     const Vec3 x = p_.position.get(at(i));
@@ -46,14 +52,17 @@ public:
     s_.grid.for_each_run_around(x, [&](Index first, Index last) {
       const Index end = s_.grain_begin[at(last) + 1];
       for (Index j = s_.grain_begin[at(first)]; j < end; j += pack_size) {
-        const PackVec3 d = PackVec3{load(&s_.places.x[at(j)]), load(&s_.places.y[at(j)]), load(&s_.places.z[at(j)])} - here;
+        const PackVec3 d =
+            PackVec3{load(&s_.places.x[at(j)]), load(&s_.places.y[at(j)]), load(&s_.places.z[at(j)])} - here;
         const Pack both = reach + load(&s_.reach[at(j)]);
         for_each_lane(dot(d, d) < both * both, [&](Index lane) {
           if (j + lane < end && p_.id[at(j + lane)] > p_.id[at(i)]) consider(i, j + lane, j + lane, x, found);
         });
       }
     });
-    if (images_.count() > 0) images_around(i, x, found);
+    // A line from a grain to an image crosses a face.
+    if (images_.count() > 0 && symmetry_.distance_to_face(x) < s_.reach[at(i)] + widest_)
+      images_around(i, x, found);
     found.rows_of_grain.push_back(static_cast<Index>(found.second.size() - before));
   }
 
@@ -96,15 +105,18 @@ private:
 
   const Particles& p_;
   const ImageMap& images_;
+  const Symmetry& symmetry_;
   const NeighbourScratch& s_;
   Index n_;
   AxisRule axis_;
+  double widest_;  // m, reach of the partner with the widest reach, and more than round-off
 };
 
 /// Copies what the search reads of all grains, with a pack behind the last that is near nobody.
 void list_places(const Particles& p, NeighbourScratch& s) {
   const Index n = p.count();
-  for (Array<double>* field : {&s.places.x, &s.places.y, &s.places.z, &s.reach}) resize_with_room(*field, n + pack_size);
+  for (Array<double>* field : {&s.places.x, &s.places.y, &s.places.z, &s.reach})
+    resize_with_room(*field, n + pack_size);
   for_each(n, [&](Index i) {
     s.places.set(at(i), p.position.get(at(i)));
     s.reach[at(i)] = p.radius[at(i)] + p.list_margin[at(i)];
@@ -131,7 +143,8 @@ void bin_images(const State& state, NeighbourScratch& s) {
   for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
 }
 
-/// Keeps identity, history and normal of the rows that store something: all that the next list can want of this one.
+/// Keeps identity, history and normal of the rows that store something: all that the next list can want of this
+/// one.
 void set_aside(const ContactTable& c, NeighbourScratch& s) {
   const auto grains = static_cast<Index>(c.row_begin.size()) - 1;
   const bool moments = c.rolling_moment.size() == at(c.rows());

@@ -18,12 +18,13 @@ struct FoundWalls {
   std::int32_t deep_feature = -1;
 };
 
-/// Which grains of a pack are within reach of any of the features: a quick look, so that the many grains that are near
-/// no wall are not asked feature by feature.
+/// Which grains of a pack are within reach of any of the features: a quick look, so that the many grains that are
+/// near no wall are not asked feature by feature.
 class NearWalls {
 public:
   NearWalls(const Vessel& vessel, const std::vector<std::int32_t>& features) : slot_(vessel.slot()) {
-    for (const std::int32_t f : features) features_.push_back({&vessel.feature(f), vessel.travel(vessel.feature(f).wall)});
+    for (const std::int32_t f : features)
+      features_.push_back({&vessel.feature(f), vessel.travel(vessel.feature(f).wall)});
   }
   Pack::mask_type operator()(const PackVec3& x, const Pack& reach) const {
     using std::abs, std::max, std::min, std::sqrt;

@@ -9,19 +9,21 @@ namespace wedge {
 struct HertzMindlin {
   template <class Real>
   struct CoefficientsOf {
-    Real young; // E*, Pa
-    Real shear; // G*, Pa
-    Real sliding; // mu_s
-    Real rolling; // mu_r, m
-    Real damping_normal; // ratio of critical
-    Real damping_tangential; // ratio of critical
-    Real lowest_normal; // N
+    Real young;               // E*, Pa
+    Real shear;               // G*, Pa
+    Real sliding;             // mu_s
+    Real rolling;             // mu_r, m
+    Real damping_normal;      // ratio of critical
+    Real damping_tangential;  // ratio of critical
+    Real lowest_normal;       // N
 
     /// Each coefficient from `get`, called with the member of Coefficients.
     template <class Get>
     static CoefficientsOf from(Get&& get) {
       using One = CoefficientsOf<double>;
-      return {get(&One::young), get(&One::shear), get(&One::sliding), get(&One::rolling), get(&One::damping_normal), get(&One::damping_tangential), get(&One::lowest_normal)};
+      return {get(&One::young),        get(&One::shear),          get(&One::sliding),
+              get(&One::rolling),      get(&One::damping_normal), get(&One::damping_tangential),
+              get(&One::lowest_normal)};
     }
   };
   using Coefficients = CoefficientsOf<double>;
@@ -38,7 +40,8 @@ struct HertzMindlin {
   static void remove_friction(Coefficients& c) { c.sliding = c.rolling = 0; }
 
   template <class Number, class Real>
-  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c, const ContactInputOf<Real>& in) {
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c,
+                                                      const ContactInputOf<Real>& in) {
     using std::max, std::sqrt;
     ContactResponseOf<Real> out;
     const Real root = sqrt(in.effective_radius * in.overlap);

@@ -22,16 +22,6 @@ std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
   return turns;
 }
 
-/// Distance from a point of the domain to its nearest periodic face, a lower bound for every copy's distance to the
-/// domain.
-double distance_to_face(const Symmetry& symmetry, Vec3 p) {
-  if (symmetry.kind() == Symmetry::Kind::translation) return std::min(p.y, symmetry.width() - p.y);
-  const Vec3 q = symmetry.turn_vector(p, -1);  // the face phi = angle turned onto the x axis
-  const double to_start = p.x > 0 ? std::fabs(p.y) : std::hypot(p.x, p.y);
-  const double to_end = q.x > 0 ? std::fabs(q.y) : std::hypot(q.x, q.y);
-  return std::min(to_start, to_end);
-}
-
 template <class T>
 void resize_with_room(Array<T>& array, std::size_t n) {
   if (n > array.capacity()) array.reserve(n + n / 16 + 64);
@@ -54,7 +44,7 @@ void make_images(State& state, AxisRule axis) {
       const auto s = static_cast<std::size_t>(i);
       const double reach = widest + p.radius[s] + p.list_margin[s];
       const Vec3 x = p.position.get(s);
-      if (distance_to_face(state.symmetry, x) > reach) continue;
+      if (state.symmetry.distance_to_face(x) > reach) continue;
       if (axis == AxisRule::pin && on_axis(x.x, x.y, p.radius[s])) continue;  // its copies act on nobody
       for (const int k : turns) {
         if (state.symmetry.distance_to_domain(x, k) > reach) continue;
@@ -64,7 +54,8 @@ void make_images(State& state, AxisRule axis) {
     }
   }
   const auto slots = static_cast<std::size_t>(n + images.count());
-  for (Array<double>* component : {&p.position.x, &p.position.y, &p.position.z}) resize_with_room(*component, slots);
+  for (Array<double>* component : {&p.position.x, &p.position.y, &p.position.z})
+    resize_with_room(*component, slots);
   resize_with_room(p.seen, slots);
   resize_with_room(p.radius, slots);
   resize_with_room(p.mass, slots);

@@ -14,8 +14,8 @@ enum class AxisAction { none, clamp, pin };
 /// alone.
 inline constexpr double axis_resolution = 1e-9;
 
-/// Velocity after a kick of length h [s] by the force f [N] and gravity g [m/s2]. Here and below: for one grain, or for
-/// a pack of them.
+/// Velocity after a kick of length h [s] by the force f [N] and gravity g [m/s2]. Here and below: for one grain, or
+/// for a pack of them.
 template <class Real>
 WEDGE_INLINE Vector3<Real> kicked(const Vector3<Real>& v, const Vector3<Real>& f, const Vec3& g, const Real& mass,
                                   double h) {
@@ -36,11 +36,14 @@ WEDGE_INLINE Real taken(const Real& mass, const Vector3<Real>& v, const Vector3<
 /// The axis rule `clamp` (Yang et al. 2014, eqs 12-17): a grain whose surface reaches the axis and that moves
 /// towards it loses its radial velocity.
 template <class Real>
-WEDGE_INLINE Vector3<Real> clamped_at_axis(const Vector3<Real>& v, const Vector3<Real>& position, const Real& radius) {
+WEDGE_INLINE Vector3<Real> clamped_at_axis(const Vector3<Real>& v, const Vector3<Real>& position,
+                                           const Real& radius) {
   const Real r2 = position.x * position.x + position.y * position.y;
   const Real outward = position.x * v.x + position.y * v.y;  // r v_r
   const Real nearest = 2 * axis_resolution * radius;
-  const Real take = select(r2 < radius * radius && r2 >= nearest * nearest && outward < 0, outward / r2, Real(0.0));
+  const auto reaches = r2 < radius * radius && r2 >= nearest * nearest && outward < 0;
+  if (!any_of(reaches)) return v;  // most grains are far from the axis
+  const Real take = select(reaches, outward / r2, Real(0.0));
   return {v.x - take * position.x, v.y - take * position.y, v.z};
 }
 
@@ -53,7 +56,8 @@ WEDGE_INLINE auto on_axis(const Real& x, const Real& y, const Real& radius) {
 
 /// The axis rule `pin`: a grain on the axis has no velocity but along it.
 template <class Real>
-WEDGE_INLINE Vector3<Real> pinned_at_axis(const Vector3<Real>& v, const Vector3<Real>& position, const Real& radius) {
+WEDGE_INLINE Vector3<Real> pinned_at_axis(const Vector3<Real>& v, const Vector3<Real>& position,
+                                          const Real& radius) {
   const Real keep = select(on_axis(position.x, position.y, radius), Real(0.0), Real(1.0));
   return {keep * v.x, keep * v.y, v.z};
 }
@@ -62,8 +66,8 @@ WEDGE_INLINE Vector3<Real> pinned_at_axis(const Vector3<Real>& v, const Vector3<
 /// m]: an exact limiter (PHYSICS: a grain whose spin the cap can stop within the kick stops and stays). `loss`
 /// grows by the energy that rolling friction takes [J].
 template <class Real>
-WEDGE_INLINE Vector3<Real> spun(const Vector3<Real>& w, const Vector3<Real>& t, const Real& cap, const Real& inertia,
-                                double h, Real& loss) {
+WEDGE_INLINE Vector3<Real> spun(const Vector3<Real>& w, const Vector3<Real>& t, const Real& cap,
+                                const Real& inertia, double h, Real& loss) {
   using std::max, std::sqrt;
   const Real rate = h / inertia;
   const Vector3<Real> free = w + rate * t;
@@ -73,7 +77,8 @@ WEDGE_INLINE Vector3<Real> spun(const Vector3<Real>& w, const Vector3<Real>& t, 
   return left * free;
 }
 template <class Real>
-WEDGE_INLINE Vector3<Real> spun_freely(const Vector3<Real>& w, const Vector3<Real>& t, const Real& inertia, double h) {
+WEDGE_INLINE Vector3<Real> spun_freely(const Vector3<Real>& w, const Vector3<Real>& t, const Real& inertia,
+                                       double h) {
   return w + (h / inertia) * t;
 }
 

@@ -10,20 +10,27 @@ namespace wedge {
 struct LinearLaw {
   template <class Real>
   struct CoefficientsOf {
-    Real stiffness; // N/m, k_n when it is given
-    Real stiffness_per_mass; // 1/s2, k_n / m* when the contact time is given: (pi^2 + ln^2 e) / t_c^2
-    Real tangential_ratio; // k_t / k_n
-    Real sliding; // mu_s
-    Real rolling; // mu_r, m
-    Real damping_normal; // ratio of critical
-    Real damping_tangential; // ratio of critical
-    Real lowest_normal; // N
+    Real stiffness;           // N/m, k_n when it is given
+    Real stiffness_per_mass;  // 1/s2, k_n / m* when the contact time is given: (pi^2 + ln^2 e) / t_c^2
+    Real tangential_ratio;    // k_t / k_n
+    Real sliding;             // mu_s
+    Real rolling;             // mu_r, m
+    Real damping_normal;      // ratio of critical
+    Real damping_tangential;  // ratio of critical
+    Real lowest_normal;       // N
 
     /// Each coefficient from `get`, called with the member of Coefficients.
     template <class Get>
     static CoefficientsOf from(Get&& get) {
       using One = CoefficientsOf<double>;
-      return {get(&One::stiffness), get(&One::stiffness_per_mass), get(&One::tangential_ratio), get(&One::sliding), get(&One::rolling), get(&One::damping_normal), get(&One::damping_tangential), get(&One::lowest_normal)};
+      return {get(&One::stiffness),
+              get(&One::stiffness_per_mass),
+              get(&One::tangential_ratio),
+              get(&One::sliding),
+              get(&One::rolling),
+              get(&One::damping_normal),
+              get(&One::damping_tangential),
+              get(&One::lowest_normal)};
     }
   };
   using Coefficients = CoefficientsOf<double>;
@@ -53,13 +60,15 @@ struct LinearLaw {
   static void remove_friction(Coefficients& c) { c.sliding = c.rolling = 0; }
 
   template <class Number, class Real>
-  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c, const ContactInputOf<Real>& in) {
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c,
+                                                      const ContactInputOf<Real>& in) {
     using std::max, std::sqrt;
     ContactResponseOf<Real> out;
     const Real k_n = normal_stiffness(c, in.effective_mass);
     const Real critical = 2 * sqrt(in.effective_mass * k_n);
     out.elastic_normal = k_n * in.overlap;
-    out.normal = max(Real(c.lowest_normal), out.elastic_normal + c.damping_normal * critical * in.approach_velocity);
+    out.normal =
+        max(Real(c.lowest_normal), out.elastic_normal + c.damping_normal * critical * in.approach_velocity);
 
     const Real damping = c.damping_tangential * critical * sqrt(c.tangential_ratio);
     limit_sliding(out, in, Real(c.tangential_ratio * k_n), damping, c.sliding * out.elastic_normal);

@@ -10,19 +10,21 @@ namespace wedge {
 struct MindlinDeresiewicz {
   template <class Real>
   struct CoefficientsOf {
-    Real young; // E*, Pa
-    Real sliding; // mu_s
-    Real rolling; // mu_r, m
-    Real limit; // dt_max / dn = mu_s E* / (4 G*)
-    Real damping_normal; // c_n
-    Real damping_tangential_squared; // 6 c_t^2 (4/3) E* mu_s dn / dt_max, Pa: what is constant under the root
-    Real lowest_normal; // N
+    Real young;                       // E*, Pa
+    Real sliding;                     // mu_s
+    Real rolling;                     // mu_r, m
+    Real limit;                       // dt_max / dn = mu_s E* / (4 G*)
+    Real damping_normal;              // c_n
+    Real damping_tangential_squared;  // 6 c_t^2 (4/3) E* mu_s dn / dt_max, Pa: what is constant under the root
+    Real lowest_normal;               // N
 
     /// Each coefficient from `get`, called with the member of Coefficients.
     template <class Get>
     static CoefficientsOf from(Get&& get) {
       using One = CoefficientsOf<double>;
-      return {get(&One::young), get(&One::sliding), get(&One::rolling), get(&One::limit), get(&One::damping_normal), get(&One::damping_tangential_squared), get(&One::lowest_normal)};
+      return {get(&One::young),        get(&One::sliding),        get(&One::rolling),
+              get(&One::limit),        get(&One::damping_normal), get(&One::damping_tangential_squared),
+              get(&One::lowest_normal)};
     }
   };
   using Coefficients = CoefficientsOf<double>;
@@ -49,7 +51,8 @@ struct MindlinDeresiewicz {
   }
 
   template <class Number, class Real>
-  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c, const ContactInputOf<Real>& in) {
+  WEDGE_INLINE static ContactResponseOf<Real> respond(const CoefficientsOf<Number>& c,
+                                                      const ContactInputOf<Real>& in) {
     using std::max, std::min, std::sqrt;
     ContactResponseOf<Real> out;
     const Real root = sqrt(in.effective_radius * in.overlap);

@@ -100,10 +100,10 @@ struct GrainColumns {
   void read(const double* sums, Index count) {
     for (Index row = 0; row < count; row += 8) {
       Eight records[8], columns[8];
-      for (Index r = 0; r < 8; ++r)
-        records[r] = reinterpret_cast<const Eight*>(sums)[std::min(row + r, count - 1)];
+      for (Index r = 0; r < 8; ++r) records[r] = reinterpret_cast<const Eight*>(sums)[std::min(row + r, count - 1)];
       transpose(records, columns);
-      for (std::size_t c = 0; c < Reactions::sum_size; ++c) *reinterpret_cast<Eight*>(number[c].number + row) = columns[c];
+      for (std::size_t c = 0; c < Reactions::sum_size; ++c)
+        *reinterpret_cast<Eight*>(number[c].number + row) = columns[c];
     }
   }
 };
@@ -112,9 +112,19 @@ template <Halves halves, Friction friction, AxisAction axis, class Bodies>
 class MovePass {
 public:
   MovePass(const Bodies& bodies, Particles& p, const Reactions& reactions, Vec3 gravity, double dt)
-      : bodies_(bodies), reactions_(reactions), gravity_(gravity), dt_(dt), x_(p.position), v_(p.velocity),
-        w_(p.angular_velocity), force_(p.force), torque_(p.torque), reference_(p.reference),
-        cap_(p.rolling_cap.data()), margin_(p.list_margin.data()), seen_(p.seen.data()) {}
+      : bodies_(bodies),
+        reactions_(reactions),
+        gravity_(gravity),
+        dt_(dt),
+        x_(p.position),
+        v_(p.velocity),
+        w_(p.angular_velocity),
+        force_(p.force),
+        torque_(p.torque),
+        reference_(p.reference),
+        cap_(p.rolling_cap.data()),
+        margin_(p.list_margin.data()),
+        seen_(p.seen.data()) {}
 
   /// Grains [begin, end).
   MoveResult move(Index begin, Index end) {
@@ -167,7 +177,7 @@ private:
     const ForcesOf<Real> f = forces<Real>(i, row);
     Vector3<Real> x = x_.get<Real>(i), v = v_.get<Real>(i), w;
     if constexpr (friction != Friction::none) w = w_.get<Real>(i);
-    const auto kick = [&](KickLossesOf<Real>& l) {
+    const auto kick = [&](KickLossesOf<Real> & l) __attribute__((always_inline)) {
       half_kick<friction, axis>(radius, mass, f, gravity_, h, x, v, w, l);
     };
     if constexpr (halves != Halves::first) kick(losses.second);
@@ -190,16 +200,16 @@ private:
       const Real margin = load<Real>(margin_ + i);
       losses.outside += select(dot(way, way) <= margin * margin, Real(0.0), Real(1.0));
       if constexpr (axis == AxisAction::pin)  // who is newly on the axis meets others than before
-        losses.outside += select(on_axis(x.x, x.y, radius) && !on_axis(reference.x, reference.y, radius), Real(1.0),
-                                 Real(0.0));
+        losses.outside +=
+            select(on_axis(x.x, x.y, radius) && !on_axis(reference.x, reference.y, radius), Real(1.0), Real(0.0));
     }
   }
 
   template <class Real>
   WEDGE_INLINE void show(Index i, Index row, const Vector3<Real>& x, const Vector3<Real>& v, const Vector3<Real>& w,
                          const Real& radius, const Real& mass) {
-    const Real shown[] = {x.x, x.y, x.z, v.x, v.y, v.z, radius, mass, w.x, w.y, w.z,
-                          bodies_.template material<Real>(i)};
+    const Real shown[] = {x.x,    x.y,  x.z, v.x, v.y, v.z,
+                          radius, mass, w.x, w.y, w.z, bodies_.template material<Real>(i)};
     for (std::size_t c = 0; c < std::size(shown); ++c) store(shown_.number[c].number + row, shown[c]);
   }
 
@@ -214,10 +224,10 @@ private:
   GrainColumns sums_, shown_;
 };
 
-/// Second half of a step: takes the forces of the grains from the sums, and kicks by dt/2. First half: kicks by dt/2,
-/// drifts by dt, and predicts the velocities that contacts will see at the new time.
-/// Returns whether the neighbour list went stale. Post: after `second` alone, force, torque and rolling_cap hold the
-/// forces of the step, which `first` alone starts from.
+/// Second half of a step: takes the forces of the grains from the sums, and kicks by dt/2. First half: kicks by
+/// dt/2, drifts by dt, and predicts the velocities that contacts will see at the new time. Returns whether the
+/// neighbour list went stale. Post: after `second` alone, force, torque and rolling_cap hold the forces of the
+/// step, which `first` alone starts from.
 template <Halves halves, Friction friction, AxisAction axis, class Bodies>
 bool move_grains(const Bodies& bodies, State& state, const Reactions& reactions, Vec3 gravity, double dt) {
   const MoveResult result = reduce_blocks(

@@ -20,7 +20,6 @@ struct NeighbourScratch {
   Array<Index> image_begin, image_order;  // per cell: its images, in image order
   Array<double> real_buffer;
   Array<std::int32_t> whole_buffer;
-  Array<Seen> seen_buffer;
   // The touching contacts of the list before, for carrying histories, by the slots grains had then.
   Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
   Array<std::int32_t> old_partner, old_turn;

@@ -1,4 +1,5 @@
-// pair_mix.hpp: radii, masses and coefficients of the pairs in a slab of rows: constants where all grains are alike.
+// pair_mix.hpp: radii, masses and coefficients of the pairs in a slab of rows: constants where all grains are
+// alike.
 #pragma once
 
 #include "core/state.hpp"

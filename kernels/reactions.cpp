@@ -12,6 +12,9 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Sums of guests lie anywhere: each is asked for this many before it is needed.
+constexpr Index fetched_ahead = 16;
+
 /// Whether the second grain of row k feels the row.
 bool has_reaction(const State& state, AxisRule axis, std::size_t k) {
   const ContactTable& c = state.contacts;
@@ -36,7 +39,8 @@ Guests find_guests(const State& state, AxisRule axis, Index tile) {
   const Index begin = tile * tile_size, end = std::min(state.particles.count(), begin + tile_size);
   Guests guests;
   for (std::size_t k = at(c.row_begin[at(begin)]); k < at(c.row_begin[at(end)]); ++k)
-    if ((c.second[k] < begin || c.second[k] >= end) && has_reaction(state, axis, k)) guests.slots.push_back(c.second[k]);
+    if ((c.second[k] < begin || c.second[k] >= end) && has_reaction(state, axis, k))
+      guests.slots.push_back(c.second[k]);
   std::sort(guests.slots.begin(), guests.slots.end());
   guests.slots.erase(std::unique(guests.slots.begin(), guests.slots.end()), guests.slots.end());
   return guests;
@@ -87,7 +91,7 @@ void map_reactions(const State& state, AxisRule axis, Reactions& r) {
     const Index begin = tile * tile_size, end = std::min(n, begin + tile_size);
     for (std::size_t k = at(c.row_begin[at(begin)]); k < at(c.row_begin[at(end)]); ++k) {
       const Index slot = c.second[k];
-      r.target[k] = !has_reaction(state, axis, k)   ? r.guests_begin[at(tile)]
+      r.target[k] = !has_reaction(state, axis, k) ? r.guests_begin[at(tile)]
                     : slot >= begin && slot < end ? slot
                                                   : r.guests_begin[at(tile)] + guests[at(tile)].sum_of(slot);
     }
@@ -98,8 +102,11 @@ void map_reactions(const State& state, AxisRule axis, Reactions& r) {
 }
 
 void fold_reactions(const State& state, Reactions& r) {
+  const auto last = static_cast<Index>(r.source.size()) - 1;
   for_each(static_cast<Index>(r.receiver.size()), [&](Index m) {
     double* sum = r.sum(r.receiver[at(m)]);
+    const Index soon = std::min(r.source_begin[at(m)] + fetched_ahead, last);
+    __builtin_prefetch(r.sum(r.source[at(soon)]));
     for (std::size_t s = at(r.source_begin[at(m)]); s < at(r.source_begin[at(m) + 1]); ++s) {
       const double* guest = r.sum(r.source[s]);
       Vec3 force{guest[0], guest[1], guest[2]}, torque{guest[3], guest[4], guest[5]};

@@ -9,8 +9,8 @@
 namespace wedge {
 
 /// Grains whose rows are computed together, by one thread, which adds their forces as it goes. Sorted grains make a
-/// tile compact, so that its grains and sums stay in the second-level cache; fixed, so that results do not depend on
-/// the number of threads.
+/// tile compact, so that its grains and sums stay in the second-level cache; fixed, so that results do not depend
+/// on the number of threads.
 inline constexpr Index tile_size = 1024;
 static_assert(tile_size % block_size == 0, "a tile is made of whole blocks");
 inline Index tile_count(Index grains) { return (grains + tile_size - 1) / tile_size; }
@@ -29,17 +29,17 @@ struct Reactions {
 
   Array<Index> target;        // per row: the sum for what its `second` feels
   Array<Index> guests_begin;  // per tile: its first guest sum; one entry more than there are tiles
-  // What is folded back: to receiver[r] go the sums source[source_begin[r]] .. source[source_begin[r+1]-1], ascending,
-  // each turned by source_turn.
+  // What is folded back: to receiver[r] go the sums source[source_begin[r]] .. source[source_begin[r+1]-1],
+  // ascending, each turned by source_turn.
   Array<Index> receiver, source_begin, source;
   Array<std::int32_t> source_turn;
 
   std::int64_t list = -1;  // number of the neighbour list that the map was made for
 };
 
-/// Pre: the contact list is new. Post: `reactions` fits it. A row without a reaction (a grain and its own copy half a
-/// turn away: the reaction is the same contact seen again; a contact of a grain pinned to the axis with a copy) has a
-/// sum that nobody reads.
+/// Pre: the contact list is new. Post: `reactions` fits it. A row without a reaction (a grain and its own copy half
+/// a turn away: the reaction is the same contact seen again; a contact of a grain pinned to the axis with a copy)
+/// has a sum that nobody reads.
 void map_reactions(const State& state, AxisRule axis, Reactions& reactions);
 
 /// Adds to each grain what other tiles and its images feel for it, turned back. Pre: all tiles are done.

@@ -1,8 +1,8 @@
 // slab.hpp: rows of the contact table a slab at a time: what their grains show is collected into columns, and what
 // comes of it goes from columns to the sums of the grains.
 //
-// Between the two the law computes packs from columns, without gathers and scatters: a vector that is gathered number
-// by number costs more than the law itself (perf/README.md).
+// Between the two the law computes packs from columns, without gathers and scatters: a vector that is gathered
+// number by number costs more than the law itself (perf/README.md).
 #pragma once
 
 #include "core/material.hpp"
@@ -48,7 +48,8 @@ WEDGE_INLINE void store_columns(const Eight (&records)[8], Column* const (&to)[c
 /// The grains of the rows of a slab.
 struct SlabRows {
   const Index *first, *second;
-  const Index* soon;  // `second` of rows that come soon, as many: their grains are fetched while these are collected
+  const Index*
+      soon;  // `second` of rows that come soon, as many: their grains are fetched while these are collected
   Index count;
 };
 
@@ -94,7 +95,8 @@ struct OutcomeSlab {
 
 /// Adds the outcome of each row to the sums of its two grains, row by row.
 template <bool same_torque>
-inline void add_to_sums(const OutcomeSlab& slab, const Index* first, const Index* target, Index rows, double* sums) {
+inline void add_to_sums(const OutcomeSlab& slab, const Index* first, const Index* target, Index rows,
+                        double* sums) {
   constexpr Eight opposite{-1, -1, -1, 1, 1, 1, 1, 1};
   auto* sum = reinterpret_cast<Eight*>(sums);
   for (Index row = 0; row < rows; row += 8) {

@@ -118,8 +118,8 @@ void TimeStep::start(State& state, double dt) {
   Particles& p = state.particles;
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
-    p.seen[s] = {p.position.get(s), p.velocity.get(s), p.radius[s], p.mass[s], p.angular_velocity.get(s),
-                 static_cast<double>(p.material[s])};
+    p.seen[s] = {p.position.get(s), p.velocity.get(s),         p.radius[s],
+                 p.mass[s],         p.angular_velocity.get(s), static_cast<double>(p.material[s])};
   }
   renew_list(state, dt);
   forces(state, 0);

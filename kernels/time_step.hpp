@@ -34,9 +34,9 @@ public:
 
   /// Makes the first neighbour list and the forces of the first moment. Throws PhysicsError.
   void start(State& state, double dt);
-  /// `most` steps of length dt [s], or fewer: the step in which a grain leaves is the last one. Returns their number.
-  /// The result is that of single steps, to the bit. Throws PhysicsError when the physics breaks down; the state is
-  /// then that moment's.
+  /// `most` steps of length dt [s], or fewer: the step in which a grain leaves is the last one. Returns their
+  /// number. The result is that of single steps, to the bit. Throws PhysicsError when the physics breaks down; the
+  /// state is then that moment's.
   int advance(State& state, double dt, int most = 1);
   /// Makes the next step renew the neighbour list.
   static void expire_list(State& state);

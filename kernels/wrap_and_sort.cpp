@@ -58,6 +58,30 @@ void permute(Array<T>& field, const Array<Index>& order, Array<T>& buffer) {
   field.swap(buffer);
 }
 
+/// The same for what contacts see: velocities one after the other, through memory that the search fills later; the
+/// rest is that of the grains, which are in order.
+void permute_seen(Particles& p, NeighbourScratch& s) {
+  const auto n = static_cast<Index>(s.order.size());
+  s.places.resize(std::max(s.places.size(), s.order.size()));
+  for (Vec3 Seen::*const vector : {&Seen::velocity, &Seen::angular_velocity}) {
+    for_each(n, [&](Index k) {
+      const auto to = static_cast<std::size_t>(k);
+      s.places.set(to, p.seen[static_cast<std::size_t>(s.order[to])].*vector);
+    });
+    for_each(n, [&](Index k) {
+      const auto to = static_cast<std::size_t>(k);
+      p.seen[to].*vector = s.places.get(to);
+    });
+  }
+  for_each(n, [&](Index k) {
+    const auto i = static_cast<std::size_t>(k);
+    p.seen[i].position = p.position.get(i);
+    p.seen[i].radius = p.radius[i];
+    p.seen[i].mass = p.mass[i];
+    p.seen[i].material = p.material[i];
+  });
+}
+
 /// Counting sort by cell, then ids within a cell: the order is a function of positions and ids alone.
 void order_by_cell(const Particles& p, NeighbourScratch& s) {
   const auto n = static_cast<std::size_t>(p.count());
@@ -158,7 +182,7 @@ void sort_by_cell(State& state, NeighbourScratch& s) {
       permute(field, s.order, s.whole_buffer);
   };
   Particles::for_each_field(p, [&](const FieldInfo&, auto& field) { reorder(field); });
-  permute(p.seen, s.order, s.seen_buffer);
+  permute_seen(p, s);
   reorder(s.wrap);
   s.old_slot.swap(s.order);
   s.leaves.clear();

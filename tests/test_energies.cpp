@@ -87,7 +87,8 @@ TEMPLATE_TEST_CASE("sliding loses mu_s f_cn times the way beyond the limit, and 
   double work = 0, lost = 0;
   for (int k = 1; k <= steps; ++k) {  // as the contact pass does: slip, then the law, which cuts the displacement
     const ContactResponse out = TestType::respond(
-        law.coefficients, ContactInput{overlap, effective_radius, effective_mass, 0, {}, displacement + slip * along});
+        law.coefficients,
+        ContactInput{overlap, effective_radius, effective_mass, 0, {}, displacement + slip * along});
     work -= 0.5 * slip * dot(force + out.elastic_tangential, along);
     lost += out.sliding_loss;
     displacement = out.displacement;

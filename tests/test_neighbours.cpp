@@ -145,8 +145,7 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
       torque[i] += (s.particles.radius[i] - half) * q;
       if (i == j && 2 * s.contacts.turn[r] == c.order) continue;
       force[j] -= s.symmetry.turn_vector(f, -s.contacts.turn[r]);
-      torque[j] +=
-          (s.particles.radius[j] - half) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
+      torque[j] += (s.particles.radius[j] - half) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
     }
     double scale = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -56,7 +56,8 @@ double drift_of_pair(Vec3 axis, int steps) {
     if (k == 0) before = reactions.force(e.state.contacts.first[0]);
   }
   const double of_stress = norm(e.state.contacts.history.get(0) - turned(stress, axis, 0.5 * pi)) / norm(stress);
-  CHECK(norm(reactions.force(e.state.contacts.first[0]) - turned(before, axis, 0.5 * pi)) < 2 * (of_stress + 1e-9) * norm(before));
+  CHECK(norm(reactions.force(e.state.contacts.first[0]) - turned(before, axis, 0.5 * pi)) <
+        2 * (of_stress + 1e-9) * norm(before));
   return of_stress;
 }
 
