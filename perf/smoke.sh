@@ -92,7 +92,8 @@ toolchain="$(g++ --version | head -n 1), $(getconf GNU_LIBC_VERSION)"
 [ "$mode" = --record ] || [ -s "$recorded" ] || { echo "error: $recorded is missing: bash perf/smoke.sh --record" >&2; exit 1; }
 
 # A folder made for another compiler is made anew: told of a new one, CMake would forget all other options.
-grep -qsxE "CMAKE_CXX_COMPILER:[A-Z]+=$(command -v g++)" "$folder/CMakeCache.txt" || rm -rf "$folder"
+[ ! -f "$folder/CMakeCache.txt" ] ||
+  [ "$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$folder/CMakeCache.txt")" = "$(command -v g++)" ] || rm -rf "$folder"
 CXX=$(command -v g++) configure "$folder" -DCMAKE_BUILD_TYPE=Release -DWEDGE_NATIVE=OFF \
   -DCMAKE_CXX_FLAGS=-march=x86-64-v3 -DWEDGE_TESTS=OFF -DWEDGE_PERF=ON >/dev/null
 cmake --build "$folder" -j 1 --target bench_step >"$folder/build.log" ||  # one job: ctest runs others beside it
