@@ -30,7 +30,7 @@ instructions() {
   local log=$folder/valgrind.log
   valgrind --tool=exp-bbv --instr-count-only=yes --bb-out-file=/dev/null --log-file="$log" "$bench" --particles $grains "$@" \
     >"$folder/valgrind.out" || { echo "error: bench_step failed under valgrind: see $log" >&2; return 1; }
-  awk '/Total instructions:/ { n += $NF } END { print n; exit !n }' "$log"  # a line for each thread
+  awk '/Total instructions:/ { n += $NF } END { printf "%.0f\n", n; exit !n }' "$log"  # a line for each thread
 }
 
 # per_particle_step OPTION...: instructions of the time loop alone: a long run less a short one, the same until there.
