@@ -2,23 +2,28 @@
 # run.sh [GRAINS [ROUNDS]]: how fast is the settled column (32000 grains, 5 rounds), and how fast are LAMMPS and LIGGGHTS
 # on the same places, where they are installed (Debian: lammps, liggghts)? Builds bench_step, settles the column once,
 # then runs all in turn, one core each, so that a machine whose speed drifts drifts for all. Prints medians and ratios.
+# Then what the machine can do at most and what each pass costs, by Google Benchmark (Debian: libbenchmark-dev).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . apps/install_needed.sh
 grains=${1:-32000} rounds=${2:-5} steps=400
 case "$grains$rounds" in *[!0-9]*) echo "usage: bash perf/run.sh [GRAINS [ROUNDS]]" >&2; exit 2 ;; esac
 
-install_needed
+install_needed libbenchmark-dev
 configure build/release -DCMAKE_BUILD_TYPE=Release -DWEDGE_TESTS=OFF -DWEDGE_PERF=ON
 cmake --build build/release -j "$(nproc)" --target bench_step
 bench=build/release/perf/bench_step folder=build/perf
 mkdir -p "$folder"
-places=$folder/column_$grains.txt data=$folder/column_$grains.data
-if [ ! -s "$places" ]; then
-  echo "settling $grains grains, once"
-  $bench --particles "$grains" --settle 1 --steps 1 --threads "$(nproc)" --write "$places.part" >/dev/null
+# settle GRAINS: makes the file of their settled places, once.
+settle() {
+  local places=$folder/column_$1.txt
+  [ ! -s "$places" ] || return 0
+  echo "settling $1 grains, once"
+  $bench --particles "$1" --settle 1 --steps 1 --threads "$(nproc)" --write "$places.part" >/dev/null
   mv "$places.part" "$places"
-fi
+}
+places=$folder/column_$grains.txt data=$folder/column_$grains.data
+settle "$grains"
 awk -v n="$grains" '{ line[NR] = NR " 1 0.005 3800 " $0; if ($3 > top) top = $3 } END {
   printf "column of perf/run.sh\n\n%d atoms\n1 atom types\n\n-0.102 0.102 xlo xhi\n-0.102 0.102 ylo yhi\n-0.02 %g zlo zhi\n\nAtoms\n\n", n, top + 0.02
   for (i = 1; i <= NR; ++i) print line[i] }' "$places" >"$data"
@@ -60,3 +65,15 @@ for c in "${!commands[@]}"; do
   printf '| %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n' "${names[c]}" "$(column "$c" | median)" "$(column "$c" | head -n 1)" \
     "$(column "$c" | tail -n 1)" "$(ratio 0 "$c")" "$(ratio 1 "$c")"
 done
+
+# medians PROGRAM OPTION...: of three repetitions.
+medians() { "$@" --benchmark_repetitions=3 --benchmark_display_aggregates_only=true --benchmark_counters_tabular=true | grep -vE '_(mean|stddev|cv) '; }
+echo
+if ! cmake --build build/release --target help | grep bench_passes >/dev/null; then
+  echo "Google Benchmark is not installed: no tables of the machine's limits and of the passes"
+  exit 0
+fi
+cmake --build build/release -j "$(nproc)" --target bench_limits bench_passes
+for size in 2000 32000 120000; do settle $size; done  # the largest takes some minutes
+medians build/release/perf/bench_limits
+medians build/release/perf/bench_passes "$folder"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# run.sh: builds wedge with assertions and warnings as errors and runs every test. Other ways to run them:
+# run.sh: builds wedge with assertions and warnings as errors and runs every test, and with them perf/smoke.sh, which
+# fails when the step has become slower or computes something else. Other ways to run them:
 #   --clang           built with clang
 #   --asan            under the address and undefined-behaviour sanitizers
 #   --tsan            under the thread sanitizer, with clang and its OpenMP runtime
@@ -109,7 +110,10 @@ mode=${1:-}
 [ $# -le 1 ] || [ "$mode" = --fuzz ] || usage
 case "$mode" in
   "" | --nightly | --validate)
-    if command -v g++ >/dev/null; then install_needed; else install_needed g++; fi
+    needed=()
+    command -v g++ >/dev/null || needed+=(g++)
+    [ -n "$mode" ] || needed+=(valgrind binutils)  # of perf/smoke.sh
+    install_needed "${needed[@]}"
     build build/tests g++ -DWEDGE_WARNINGS_AS_ERRORS=ON
     [ "$mode" != --validate ] || { validate build/tests; exit; }
     [ "$mode" != --nightly ] || exec ctest --test-dir build/tests --output-on-failure -L nightly

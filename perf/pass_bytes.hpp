@@ -1,0 +1,61 @@
+// pass_bytes.hpp: how many bytes a pass must move between memory and processor, counted from the arrays it walks.
+//
+// Rule: what a pass reads counts once, what it writes counts once (a line that is fetched in order to be
+// overwritten does not count twice); what is read again within a tile or a block comes from a cache and does not
+// count again.
+#pragma once
+
+#include "core/state.hpp"
+#include "kernels/friction.hpp"
+#include "kernels/move.hpp"
+#include "kernels/reactions.hpp"
+
+namespace wedge {
+
+inline constexpr double number_bytes = sizeof(double), vector_bytes = 3 * number_bytes, index_bytes = sizeof(Index),
+                        seen_bytes = sizeof(Seen), sum_bytes = Reactions::sum_size * number_bytes;
+static_assert(sizeof(Index) == sizeof(std::int32_t), "indices and other whole numbers count alike");
+
+/// Rows: both grains, the target; displacement and normal read and written where there is friction. Grains and
+/// guests of tiles: what is seen of them, and their sum written.
+inline double contact_bytes(const State& state, const Reactions& reactions, Friction friction) {
+  const double row = 3 * index_bytes + (friction == Friction::none ? 0 : 4 * vector_bytes);
+  const double sums = static_cast<double>(reactions.sums.size()) / Reactions::sum_size;
+  return state.contacts.rows() * row + sums * (seen_bytes + sum_bytes);
+}
+
+/// Guests: number, turn, sum. Their receivers: number, begin, sum read and written.
+inline double fold_bytes(const Reactions& reactions) {
+  return static_cast<double>(reactions.source.size()) * (2 * index_bytes + sum_bytes) +
+         static_cast<double>(reactions.receiver.size()) * (2 * index_bytes + 2 * sum_bytes);
+}
+
+/// Rows: feature; touching, displacement, normal read and written; force, torque, overlap written. Grains near
+/// walls: number, begin, material, what is seen of them, sum read and written.
+inline double wall_bytes(const State& state) {
+  const WallContactTable& w = state.wall_contacts;
+  const double row = 3 * index_bytes + 4 * vector_bytes + 2 * vector_bytes + number_bytes;
+  const double grain = 3 * index_bytes + seen_bytes + 2 * sum_bytes;
+  return w.rows() * row + static_cast<double>(w.grain.size()) * grain;
+}
+
+/// With rolling friction. Velocities are read and written. First half: position read and written, reference and
+/// margin read, what is seen written. Forces (force, torque, cap) of a first half are read, of a second written,
+/// from sums that are read; between the two they stay in registers. Grains of two kinds: radius, mass; material
+/// where it is shown.
+inline double move_bytes(const State& state, Halves halves) {
+  const double forces = 2 * vector_bytes + number_bytes;
+  double grain = 4 * vector_bytes;
+  if (halves != Halves::second) grain += 3 * vector_bytes + number_bytes + seen_bytes;
+  if (halves != Halves::first) grain += sum_bytes;
+  if (halves != Halves::second_and_first) grain += forces;
+  if (!state.alike) grain += 2 * number_bytes + (halves != Halves::second ? index_bytes : 0);
+  return state.particles.count() * grain;
+}
+
+/// Images: owner, turn; what is seen read and written, position written.
+inline double image_bytes(const State& state) {
+  return state.images.count() * (2 * index_bytes + 2 * seen_bytes + vector_bytes);
+}
+
+}  // namespace wedge
