@@ -45,11 +45,19 @@ Result bed_run(const std::string& scene, const Variant& variant, int seed, Size 
 /// with the outlet open (":flow"): median of the rounds, and with "_low" and "_high" least and most.
 Result race(const std::string& scene, const std::vector<Variant>& variants, Size size);
 
-/// Whether a bed that came to rest at the standard step stays at rest at longer ones [% of the Rayleigh time]:
-/// "heatN" is the mean kinetic energy of a grain in m g d after 1000 times the Rayleigh time; "overlap" as in
-/// bed_run.
-inline const std::vector<double> long_steps{15, 20, 25, 30, 35, 40, 50};
-Result stability(const std::string& scene, double young, Size size);
+/// A bed to be tested for stability.
+struct Firmness {
+  double young;    // Pa
+  double damping;  // ratio, normal and tangential, of grains and walls
+
+  std::string name() const;
+};
+
+/// Whether a bed that came to rest at a small step stays at rest at longer ones [% of the Rayleigh time]: "heatN"
+/// is the mean kinetic energy of a grain in m g d after 1000 times the Rayleigh time at N %, infinite when a guard
+/// stopped it; "overlap" as in bed_run.
+inline const std::vector<double> long_steps{10, 15, 20, 25, 30, 35, 40, 50};
+Result stability(const std::string& scene, Firmness firmness, Size size);
 
 /// Distance of equal grains after 10, 100, 1000 steps from one moment of the flow, in double precision and as
 /// `other`; "nudged" is double precision with each coordinate moved by its last bit: what chaos makes of round-off.

@@ -58,9 +58,9 @@ Plan::Plan(Size size) : size_(size) {
   }
 }
 
-std::vector<double> Plan::stiffnesses() const {
-  if (size_ == Size::quick) return {1e7};
-  return {1e6, 1e7, 1e8};
+std::vector<Firmness> Plan::beds() const {
+  if (size_ == Size::quick) return {{1e7, 0.3}};
+  return {{1e6, 0.3}, {1e7, 0.3}, {1e8, 0.3}, {1e7, 0.1}, {1e7, 0.6}};
 }
 
 int Plan::seeds(const Variant& variant) const {
@@ -93,8 +93,8 @@ std::vector<Job> Plan::jobs() const {
     for (const std::string& other : drifters_)
       for (int seed = 1; seed <= (size == Size::quick ? 1 : drift_seeds); ++seed)
         all.push_back({drift_name(scene, other, seed), [=] { return drift(scene, other, seed, size); }});
-    for (const double young : stiffnesses())
-      all.push_back({stability_name(scene, young), [=] { return stability(scene, young, size); }});
+    for (const Firmness f : beds())
+      all.push_back({stability_name(scene, f), [=] { return stability(scene, f, size); }});
     all.push_back({race_name(scene), [=] { return race(scene, variants, size); }});
   }
   for (int seed = 1; seed <= seeds_most; ++seed)
@@ -111,8 +111,8 @@ std::string Plan::run_name(const std::string& scene, const Variant& variant, int
 std::string Plan::impact_name(const std::string& scene, double step, double speed) {
   return scene + "_impact_step" + number_text(step) + "_speed" + number_text(speed);
 }
-std::string Plan::stability_name(const std::string& scene, double young) {
-  return scene + "_stability_young" + number_text(young);
+std::string Plan::stability_name(const std::string& scene, Firmness firmness) {
+  return scene + "_stability_" + firmness.name();
 }
 std::string Plan::drift_name(const std::string& scene, const std::string& other, int seed) {
   return scene + "_drift_" + other + "_seed" + std::to_string(seed);

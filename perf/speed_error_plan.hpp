@@ -35,8 +35,8 @@ public:
 
   const std::vector<Table>& tables() const { return tables_; }
   const std::vector<double>& steps() const { return steps_; }
-  /// Stiffnesses whose stability is tested [Pa].
-  std::vector<double> stiffnesses() const;
+  /// Beds whose stability is tested.
+  std::vector<Firmness> beds() const;
   /// What drift is measured of: "nudged" and the precisions other than double.
   const std::vector<std::string>& drifters() const { return drifters_; }
   Size size() const { return size_; }
@@ -47,7 +47,7 @@ public:
   static std::string run_name(const std::string& scene, const Variant& variant, int seed);
   static std::string impact_name(const std::string& scene, double step, double speed);
   static std::string drift_name(const std::string& scene, const std::string& other, int seed);
-  static std::string stability_name(const std::string& scene, double young);
+  static std::string stability_name(const std::string& scene, Firmness firmness);
   static std::string race_name(const std::string& scene) { return scene + "_race"; }
 
   static constexpr double slow_impact = 0.1, fast_impact = 1.0;  // m/s

@@ -209,6 +209,8 @@ std::string Variant::name() const {
   return n.empty() ? "standard" : n;
 }
 
+std::string Firmness::name() const { return "young" + number_text(young) + "_damping" + number_text(damping); }
+
 std::string scene_file(const std::string& scene) {
   return scene == "hopper" ? "apps/scenes/hopper_small.toml" : "apps/scenes/sandpile.toml";
 }
@@ -289,25 +291,34 @@ Result race(const std::string& scene, const std::vector<Variant>& variants, Size
   return result;
 }
 
-Result stability(const std::string& scene, double young, Size size) {
+Result stability(const std::string& scene, Firmness firmness, Size size) {
   Variant v;
-  v.young = young;
-  Course standard(make_scene(scene, v, 1, size));
-  standard.settle(longest_settling);
+  v.young = firmness.young;
+  if (firmness.damping > 0.3) v.step = 5;  // 10 % may be too long for such a bed
+  const auto make = [&] {
+    Scene s = make_scene(scene, v, 1, size);
+    for (int a = 0; a < 2; ++a) {  // grains with grains, with walls
+      Interaction& pair = s.interactions(a, 0);
+      pair.damping_normal = pair.damping_tangential = firmness.damping;
+    }
+    return s;
+  };
+  Course settled(make());
+  settled.settle(longest_settling);
   Result result;
-  measure_settled(standard, result);
-  const double duration = 1000 * rayleigh_time(standard.scene);
+  measure_settled(settled, result);
+  const double duration = 1000 * rayleigh_time(settled.scene);
   for (const double step : long_steps) {
     v.step = step;
-    Course c(make_scene(scene, v, 1, size), standard);
-    const std::string name = "heat" + number_text(step);
+    Course c(make(), settled);
+    double& heat = result["heat" + number_text(step)];
     try {
       c.run(duration);
       Result now;
       measure_settled(c, now);
-      result[name] = now["heat"];
+      heat = now["heat"];
     } catch (const PhysicsError&) {
-      result[name] = std::numeric_limits<double>::infinity();
+      heat = std::numeric_limits<double>::infinity();
     }
   }
   return result;
