@@ -14,7 +14,7 @@ namespace {
 
 constexpr double left = 75, top = 60, width = 430, height = 400, gap = 90;  // pixels, of a panel
 constexpr double x_low = 0.15, x_high = 5;                                  // simulated time per step, standard = 1
-constexpr double y_low = 1e-2, y_high = 300;                                // %
+constexpr double y_low = 1e-3, y_high = 300;                                // %
 
 struct Series {
   const char* key;
@@ -58,7 +58,7 @@ void draw_frame(Panel& p, const std::string& scene) {
     p.words(at, top + height + 19, number_text(step / 10), "text-anchor=\"middle\"");
     p.words(at, top + height + 34, number_text(step) + " %", "text-anchor=\"middle\" fill=\"#777\"");
   }
-  for (const double error : {0.01, 0.1, 1.0, 10.0, 100.0}) {
+  for (const double error : {0.001, 0.01, 0.1, 1.0, 10.0, 100.0}) {
     p.line(p.origin(), p.y(error), p.origin() + width, p.y(error), "stroke=\"#ddd\"");
     p.words(p.origin() - 8, p.y(error) + 5, number_text(error), "text-anchor=\"end\"");
   }
