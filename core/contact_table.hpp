@@ -9,7 +9,7 @@ namespace wedge {
 
 /// Half list of near pairs. Row k is the pair of grain first[k] and slot second[k] (a grain or an image). The grain
 /// with the smaller id is `first`, so a pair is stored once, seam pairs included, and a history never changes
-/// sides. A row's identity is (id of first, partner_id, turn); `history` and `normal` are in the frame of `first`.
+/// sides. A row's identity is (id of first, partner_id, turn); `history` is in the frame of `first`.
 /// Rows of one grain are consecutive: those of grain i are row_begin[i] .. row_begin[i+1]-1.
 struct ContactTable {
   Array<Index> row_begin;  // count()+1 entries
@@ -17,7 +17,6 @@ struct ContactTable {
   Array<std::int32_t> partner_id;  // id of the grain that `second` is or copies
   Array<std::int32_t> turn;        // at which the partner is seen from `first`
   Vec3Array history;               // m, tangential displacement (see kernels/README.md for its half-step part)
-  Vec3Array normal;                // unit vector first -> second at the last force step
 
   // Kept only where rows have rolling couples (rolling_velocity `relative`, elastic_plastic_spring).
   Vec3Array couple;            // N m, on `first`; the other grain feels its negative. Written by each force step
@@ -36,9 +35,6 @@ struct ContactTable {
     visit(FieldInfo{"history_x", "m", "tangential displacement"}, c.history.x);
     visit(FieldInfo{"history_y", "m", "tangential displacement"}, c.history.y);
     visit(FieldInfo{"history_z", "m", "tangential displacement"}, c.history.z);
-    visit(FieldInfo{"normal_x", "", "unit normal of the last force step"}, c.normal.x);
-    visit(FieldInfo{"normal_y", "", "unit normal of the last force step"}, c.normal.y);
-    visit(FieldInfo{"normal_z", "", "unit normal of the last force step"}, c.normal.z);
   }
 
   /// Visits what has rows() entries where rows have couples, and none elsewhere.

@@ -16,19 +16,52 @@ namespace wedge {
 
 namespace simd = std::experimental;
 
-using Pack = simd::native_simd<double>;
-/// Numbers in a pack. Divides 8 on all processors with vectors of up to 64 bytes.
-inline constexpr Index pack_size = static_cast<Index>(Pack::size());
-static_assert(8 % pack_size == 0, "a pack must fit into a record of eight");
+/// A pack of doubles or of floats.
+template <class Number>
+using PackOf = simd::native_simd<Number>;
+using Pack = PackOf<double>;
+template <class Number>
+using PackVec3Of = Vector3<PackOf<Number>>;
+using PackVec3 = PackVec3Of<double>;
 
-inline bool any_of(bool condition) { return condition; }
+/// Numbers in a pack. Divides 8, or 16 of floats, on all processors with vectors of up to 64 bytes.
+template <class Number>
+inline constexpr Index lanes = static_cast<Index>(PackOf<Number>::size());
+inline constexpr Index pack_size = lanes<double>;
+static_assert(8 % lanes<double> == 0 && 16 % lanes<float> == 0, "slabs are a whole number of packs");
+
+/// The type of the numbers in Real: itself, or that of the numbers of a pack.
+template <class Real>
+struct NumberIn {
+  using type = Real;
+};
+template <class Number, class Abi>
+struct NumberIn<simd::simd<Number, Abi>> {
+  using type = Number;
+};
+template <class Real>
+using number_in = typename NumberIn<Real>::type;
+
+/// A constant in the width of Real. (Packs of floats do not take doubles by themselves.)
+template <class Real>
+constexpr number_in<Real> constant(double value) {
+  return static_cast<number_in<Real>>(value);
+}
+
+inline bool any_lane(bool condition) { return condition; }
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 
-WEDGE_INLINE Pack select(const Pack::mask_type& condition, const Pack& yes, Pack no) {
+template <class Number, class Abi>
+WEDGE_INLINE simd::simd<Number, Abi> select(const simd::simd_mask<Number, Abi>& condition,
+                                            const plain_t<simd::simd<Number, Abi>>& yes,
+                                            plain_t<simd::simd<Number, Abi>> no) {
   simd::where(condition, no) = yes;
   return no;
 }
-WEDGE_INLINE bool any_of(const Pack::mask_type& condition) { return simd::any_of(condition); }
+template <class Number, class Abi>
+WEDGE_INLINE bool any_lane(const simd::simd_mask<Number, Abi>& condition) {
+  return simd::any_of(condition);
+}
 
 /// Calls visit(lane) for each lane where the condition holds, ascending.
 template <class Visit>
@@ -40,8 +73,6 @@ WEDGE_INLINE void for_each_lane(Pack::mask_type condition, Visit&& visit) {
   }
 }
 
-using PackVec3 = Vector3<Pack>;
-
 /// A pack from memory, or one number.
 template <class Real = Pack>
 WEDGE_INLINE Real load(const double* numbers) {
@@ -50,14 +81,29 @@ WEDGE_INLINE Real load(const double* numbers) {
   else
     return Real(numbers, simd::element_aligned);
 }
-WEDGE_INLINE void store(double* numbers, const Pack& pack) { pack.copy_to(numbers, simd::element_aligned); }
+template <class Number, class Abi>
+WEDGE_INLINE void store(double* numbers, const simd::simd<Number, Abi>& pack) {
+  pack.copy_to(numbers, simd::element_aligned);
+}
 inline void store(double* number, double value) { *number = value; }
 
-/// A record of eight numbers: one cache line.
+/// A record of eight numbers: one cache line, or half of it.
 typedef double Eight __attribute__((vector_size(64), may_alias));
 typedef double Four __attribute__((vector_size(32), may_alias));
+typedef float EightFloats __attribute__((vector_size(32), may_alias));
 /// The same eight numbers where they begin anywhere.
 typedef double UnalignedEight __attribute__((vector_size(64), aligned(8), may_alias));
+
+template <class Number>
+struct EightOf {
+  using type = Eight;
+};
+template <>
+struct EightOf<float> {
+  using type = EightFloats;
+};
+template <class Number>
+using eight_of = typename EightOf<Number>::type;
 
 #ifdef __AVX512F__
 /// out[c][r] = in[r][c] for eight records of eight numbers.
@@ -99,5 +145,52 @@ WEDGE_INLINE void transpose(const Eight (&in)[8], Eight (&out)[8]) {
   }
 }
 #endif
+
+WEDGE_INLINE void transpose(const EightFloats (&in)[8], EightFloats (&out)[8]) {
+  EightFloats pairs[8], fours[8];
+  for (int m = 0; m < 8; m += 2) {
+    pairs[m] = __builtin_shufflevector(in[m], in[m + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[m + 1] = __builtin_shufflevector(in[m], in[m + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  for (int m = 0; m < 8; m += 4) {
+    for (int k = 0; k < 2; ++k) {
+      fours[m + 2 * k] = __builtin_shufflevector(pairs[m + k], pairs[m + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[m + 2 * k + 1] = __builtin_shufflevector(pairs[m + k], pairs[m + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  }
+  for (int m = 0; m < 4; ++m) {
+    out[m] = __builtin_shufflevector(fours[m], fours[m + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    out[m + 4] = __builtin_shufflevector(fours[m], fours[m + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+/// The same for eight records of four, to columns and back.
+WEDGE_INLINE void transpose(const Four (&in)[8], Eight (&out)[4]) {
+  Eight both[4], pairs[4];
+  for (int m = 0; m < 4; ++m) both[m] = __builtin_shufflevector(in[m], in[m + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  for (int m = 0; m < 4; m += 2) {
+    pairs[m] = __builtin_shufflevector(both[m], both[m + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    pairs[m + 1] = __builtin_shufflevector(both[m], both[m + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int k = 0; k < 2; ++k) {
+    out[k] = __builtin_shufflevector(pairs[k], pairs[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    out[k + 2] = __builtin_shufflevector(pairs[k], pairs[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+}
+WEDGE_INLINE void transpose(const Eight (&in)[4], Four (&out)[8]) {
+  Eight pairs[4], both[4];
+  for (int m = 0; m < 4; m += 2) {
+    pairs[m] = __builtin_shufflevector(in[m], in[m + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    pairs[m + 1] = __builtin_shufflevector(in[m], in[m + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int k = 0; k < 2; ++k) {
+    both[k] = __builtin_shufflevector(pairs[k], pairs[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    both[k + 2] = __builtin_shufflevector(pairs[k], pairs[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  for (int m = 0; m < 4; ++m) {
+    out[m] = __builtin_shufflevector(both[m], both[m], 0, 1, 2, 3);
+    out[m + 4] = __builtin_shufflevector(both[m], both[m], 4, 5, 6, 7);
+  }
+}
 
 }  // namespace wedge

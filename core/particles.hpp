@@ -7,7 +7,8 @@
 
 #include <cstdint>
 
-#include "core/vec3.hpp"
+#include "core/pack.hpp"
+#include "core/seen.hpp"
 
 namespace wedge {
 
@@ -17,18 +18,6 @@ struct FieldInfo {
   const char* unit;     // SI, "" for a plain number
   const char* meaning;  // one line for the reader of the file
 };
-
-/// What contacts see of a grain or an image during a force step: its place, and velocities predicted to the time of
-/// the place. One record a slot, because a contact reads all of it, of partners that lie anywhere (perf/README.md).
-struct alignas(32) Seen {
-  Vec3 position, velocity;  // m, m/s
-  double radius = 0;        // m
-  double mass = 0;          // kg
-  Vec3 angular_velocity;    // rad/s
-  double material = 0;      // index of the material
-};
-inline constexpr std::size_t seen_size = sizeof(Seen) / sizeof(double);
-static_assert(seen_size == 12, "the contact pass reads twelve numbers");
 
 struct Particles {
   // State: all of one time between steps.
@@ -48,7 +37,7 @@ struct Particles {
   Array<std::int32_t>
       turns;  // faces crossed: the unrolled position is the position turned by `turns` sector angles
 
-  Array<Seen> seen;  // written by each step, for grains and images
+  SeenTable seen;  // written by each step, for grains and images
 
   Index count() const { return static_cast<Index>(id.size()); }
 
@@ -99,7 +88,7 @@ inline double sphere_mass(double radius, double density) {
 /// Moment of inertia of a homogeneous sphere about a diameter [kg m2].
 template <class Real>
 inline Real sphere_inertia(const Real& mass, const Real& radius) {
-  return (2.0 / 5.0) * mass * radius * radius;
+  return constant<Real>(2.0 / 5.0) * mass * radius * radius;
 }
 
 }  // namespace wedge

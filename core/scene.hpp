@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "core/material.hpp"
+#include "core/precision.hpp"
 
 namespace wedge {
 
@@ -144,6 +145,7 @@ struct Output {
 };
 
 struct RunOptions {
+  Precision precision = Precision::double_precision;
   double skin = 0;  // m; 0: chosen
   int threads = 0;  // 0: what the container may use
 };

@@ -73,12 +73,22 @@ struct State {
   std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
 };
 
-/// Overlap of the two grains of a row [m], at the places where they are now; negative while they are apart.
+/// Way from the first grain of a row to the second [m], at the places where they are now.
+inline Vec3 row_way(const State& state, std::size_t row) {
+  const Vec3Array& x = state.particles.position;
+  return x.get(static_cast<std::size_t>(state.contacts.second[row])) -
+         x.get(static_cast<std::size_t>(state.contacts.first[row]));
+}
+/// Unit vector from the first grain of a row to the second.
+inline Vec3 row_normal(const State& state, std::size_t row) {
+  const Vec3 way = row_way(state, row);
+  return (1 / norm(way)) * way;
+}
+/// Overlap of the two grains of a row [m]; negative while they are apart.
 inline double row_overlap(const State& state, std::size_t row) {
-  const Particles& p = state.particles;
-  const auto i = static_cast<std::size_t>(state.contacts.first[row]),
-             j = static_cast<std::size_t>(state.contacts.second[row]);
-  return p.radius[i] + p.radius[j] - norm(p.position.get(j) - p.position.get(i));
+  const Array<double>& radius = state.particles.radius;
+  return radius[static_cast<std::size_t>(state.contacts.first[row])] +
+         radius[static_cast<std::size_t>(state.contacts.second[row])] - norm(row_way(state, row));
 }
 
 }  // namespace wedge

@@ -62,6 +62,12 @@ inline Real norm(const Vector3<Real>& a) {
   return sqrt(dot(a, a));
 }
 
+/// The vector in numbers of another width.
+template <class To, class From>
+inline Vector3<To> in_width(const Vector3<From>& v) {
+  return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};
+}
+
 /// A vector field stored as three arrays of equal length.
 struct Vec3Array {
   Array<double> x, y, z;

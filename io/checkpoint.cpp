@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
 using Head = std::array<char, head_size>;
 
@@ -251,8 +251,9 @@ void write_particles(Hdf5Writer& file, const Particles& p, std::size_t images) {
     file.write(name, field.data() + n, Shape{images});
   });
   require(p.seen.size() >= n + images, "what contacts see lacks grains or images");
-  const std::size_t numbers = seen_size * (n + images);
-  file.write("seen", reinterpret_cast<const double*>(p.seen.data()), Shape{numbers});
+  Array<Seen> seen(n + images);  // doubles in every precision: no wider than they need be, but of one kind
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = p.seen.get(i);
+  file.write("seen", reinterpret_cast<const double*>(seen.data()), Shape{seen_size * seen.size()});
 }
 
 void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
@@ -267,8 +268,10 @@ void read_particles(const Hdf5Reader& file, Particles& p, std::size_t images) {
     field.resize(n + images);
     file.read(name, field.data() + n, images);
   });
-  p.seen.resize(n + images);
-  file.read("seen", reinterpret_cast<double*>(p.seen.data()), seen_size * (n + images));
+  Array<Seen> seen(n + images);
+  file.read("seen", reinterpret_cast<double*>(seen.data()), seen_size * seen.size());
+  p.seen.resize(seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) p.seen.set(i, seen[i]);
 }
 
 }  // namespace

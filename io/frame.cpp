@@ -151,7 +151,7 @@ ContactLine contact_line(const State& state, const Vec3Array& forces, std::size_
   c.turn = rows.turn[row];
   c.first_position = state.particles.position.get(first);
   c.second_position = state.particles.position.get(second);
-  c.normal = rows.normal.get(row);
+  c.normal = row_normal(state, row);
   const Vec3 force = forces.get(row);
   const double along = dot(force, c.normal);
   c.normal_force = along * c.normal;
@@ -276,7 +276,7 @@ ParticleFrame read_particle_frame(const std::string& path) {
   Particles& p = frame.particles;
   p.resize(static_cast<Index>(n));
   Particles::for_each_field(p, [](const FieldInfo&, auto& field) { std::fill(field.begin(), field.end(), 0); });
-  std::fill(p.seen.begin(), p.seen.end(), Seen{});
+  for (std::size_t i = 0; i < p.seen.size(); ++i) p.seen.set(i, Seen{});
   for_each_frame_field(
       p, [&](const std::string& name, auto& field) { read_field(file, "particles/" + name, field, n); });
   return frame;

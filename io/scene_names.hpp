@@ -27,8 +27,6 @@ struct Names {
   }
 };
 
-enum class OnlyChoice { only };  // options of which one reading is built so far
-
 inline const Names<DomainKind> domain_kind_names{
     {{"full", DomainKind::full}, {"sector", DomainKind::sector}, {"slot", DomainKind::slot}}, {}};
 inline const Names<Sides> sides_names{
@@ -51,7 +49,8 @@ inline const Names<Tension> tension_names{{{"full", Tension::full}, {"none", Ten
 inline const Names<RollingVelocity> rolling_velocity_names{
     {{"own", RollingVelocity::own}, {"relative", RollingVelocity::relative}}, {}};
 inline const Names<Coulomb> coulomb_names{{{"printed", Coulomb::printed}, {"total", Coulomb::total}}, {}};
-inline const Names<OnlyChoice> run_precision_names{{{"double", OnlyChoice::only}}, {"mixed"}};
+inline const Names<Precision> precision_names{
+    {{"double", Precision::double_precision}, {"mixed", Precision::mixed}}, {}};
 inline const Names<FramePrecision> frame_precision_names{
     {{"single", FramePrecision::single_precision}, {"double", FramePrecision::double_precision}}, {}};
 

@@ -127,7 +127,7 @@ void read_settings(SceneReading& reading, const toml::table& root, Scene& scene)
       run.number_or_auto("skin", Quantity::not_negative("a length in m, such as \"0.1 d\""), true).value_or(0);
   scene.run.threads =
       static_cast<int>(run.integer("threads", "a number of threads, 0: what there is", 0).value_or(0));
-  (void)run.choice("precision", run_precision_names);
+  if (const auto precision = run.choice("precision", precision_names)) scene.run.precision = *precision;
   run.finish();
 }
 

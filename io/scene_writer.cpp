@@ -209,7 +209,7 @@ void write_settings(Writer& w, const Scene& scene) {
   w.table("[start]");
   w.line("from", quoted(scene.start_from));
   w.table("[run]");
-  w.line("precision", quoted(run_precision_names.of(OnlyChoice::only)));
+  w.line("precision", quoted(precision_names.of(scene.run.precision)));
   w.line("skin", or_auto(scene.run.skin));
   w.line("threads", std::to_string(scene.run.threads));
 }

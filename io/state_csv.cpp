@@ -173,7 +173,7 @@ private:
       p.radius[i] = rows_[i].radius;
       p.material[i] = rows_[i].material;
       p.id[i] = rows_[i].id;
-      p.seen[i] = {};
+      p.seen.set(i, {});
     }
     return p;
   }

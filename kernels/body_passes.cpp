@@ -25,10 +25,13 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
   std::variant<std::false_type, std::true_type> alike;
   if (uniform && state.particles.count() > 0) alike.emplace<1>();
 
+  std::variant<double, float> width;
+  if (scene.run.precision == Precision::mixed) width = 0.0f;
+
   const Vec3 g{scene.domain.gravity.x(), scene.domain.gravity.y(), scene.domain.gravity.z()};
   BodyPasses passes;
   std::visit(
-      [&](auto f, auto axis, auto one_kind) {
+      [&](auto f, auto axis, auto one_kind, auto number) {
         constexpr Friction need = decltype(f)::value;
         constexpr AxisAction act = decltype(axis)::value;
         constexpr bool same = decltype(one_kind)::value;
@@ -43,14 +46,14 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
         };
         const auto moves = [=](auto halves) {
           return [=](State& s, const Reactions& r, double dt) {
-            return move_grains<decltype(halves)::value, need, act>(bodies(s), s, r, g, dt);
+            return move_grains<decltype(halves)::value, need, act, decltype(number)>(bodies(s), s, r, g, dt);
           };
         };
         passes.first_half = moves(std::integral_constant<Halves, Halves::first>{});
         passes.second_half = moves(std::integral_constant<Halves, Halves::second>{});
         passes.second_and_first_half = moves(std::integral_constant<Halves, Halves::second_and_first>{});
       },
-      level, action, alike);
+      level, action, alike, width);
   return passes;
 }
 

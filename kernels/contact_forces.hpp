@@ -26,7 +26,7 @@ Vec3Array contact_forces(const PairTable<typename Law::Coefficients>& table, Fri
   for_each(c.rows(), [&](Index k) {
     const auto row = static_cast<std::size_t>(k);
     const auto first = static_cast<std::size_t>(c.first[row]), second = static_cast<std::size_t>(c.second[row]);
-    const Seen &i = p.seen[first], &j = p.seen[second];
+    const Seen i = p.seen.get(first), j = p.seen.get(second);
     const Vec3 d = j.position - i.position;
     const double distance = norm(d), overlap = std::max(0.0, i.radius + j.radius - distance);
     const Vec3 n = (1 / distance) * d;

@@ -37,7 +37,9 @@ struct ContactResponseOf {
 using ContactResponse = ContactResponseOf<double>;
 
 /// The smallest number whose square root and inverse are finite: keeps x / |x| defined at x = 0.
-inline constexpr double tiny = 1e-150;
+template <class Real>
+inline constexpr number_in<Real> tiny = std::is_same_v<number_in<Real>, float> ? constant<Real>(1e-36)
+                                                                               : constant<Real>(1e-150);
 
 /// 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa].
 inline double effective_young(const Material& a, const Material& b) {
@@ -64,10 +66,10 @@ WEDGE_INLINE void limit_sliding(ContactResponseOf<Real>& out, const ContactInput
                                 const Real& damping, const Real& cap) {
   const Real length = norm(in.displacement), elastic = stiffness * length;
   const auto slides = elastic > cap;
-  const Real keep = select(slides, cap / (elastic + tiny), Real(1.0));
+  const Real keep = select(slides, cap / (elastic + tiny<Real>), Real(1));
   out.displacement = keep * in.displacement;
   out.elastic_tangential = (-stiffness * keep) * in.displacement;
-  out.tangential = out.elastic_tangential - select(slides, Real(0.0), damping) * in.tangential_velocity;
+  out.tangential = out.elastic_tangential - select(slides, Real(0), damping) * in.tangential_velocity;
   out.sliding_loss = cap * (1 - keep) * length;
 }
 

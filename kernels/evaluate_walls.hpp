@@ -54,10 +54,11 @@ struct WallSlab {
 };
 
 /// Blocks of the wall contact table.
-template <class Law, Friction friction>
+/// `Number` is the width of what is seen of grains and of their sums; the walls' own work is done in doubles.
+template <class Law, Friction friction, class Number>
 class WallPass {
 public:
-  WallPass(const WallMix<Law>& mix, State& state, Reactions& reactions, const ForceStep& step)
+  WallPass(const WallMix<Law>& mix, State& state, Reactions& reactions, const ForceStep<double>& step)
       : mix_(mix), state_(state), reactions_(reactions), c_(state.wall_contacts), step_(step) {}
 
   /// Entries [begin, end) of the table's list of grains.
@@ -99,7 +100,7 @@ private:
       return;
     }
     const int wall = state_.vessel.carrier(c_.feature[k]);
-    const Seen& seen = state_.particles.seen[static_cast<std::size_t>(i)];
+    const auto seen = seen_in<double>(state_.particles.seen.template data<Number>()[i]);
     const Index m = slab_.count++;
     slab_.row[m] = static_cast<Index>(k);
     slab_.grain[m] = i;
@@ -134,22 +135,23 @@ private:
     for (Index m = 0; m < slab_.count; ++m) {
       const auto k = static_cast<std::size_t>(slab_.row[m]);
       const Vec3 force = get(slab_.force, m);
-      double* const sum = reactions_.sum(slab_.grain[m]);
+      Number* const sum = reactions_.template sum<Number>(slab_.grain[m]);
+      const auto add = [&](int c, double felt) { sum[c] += static_cast<Number>(felt); };
       c_.force.set(k, force);
-      sum[0] += force.x;
-      sum[1] += force.y;
-      sum[2] += force.z;
+      add(0, force.x);
+      add(1, force.y);
+      add(2, force.z);
       if constexpr (friction == Friction::none) {
         c_.torque.set(k, {});
       } else {
         const Vec3 torque = get(slab_.torque, m);
         c_.torque.set(k, torque);
-        sum[3] += torque.x;
-        sum[4] += torque.y;
-        sum[5] += torque.z;
+        add(3, torque.x);
+        add(4, torque.y);
+        add(5, torque.z);
         c_.history.set(k, get(slab_.history, m));
       }
-      if constexpr (friction == Friction::rolling) sum[6] += slab_.rolling_cap.number[m];
+      if constexpr (friction == Friction::rolling) add(6, slab_.rolling_cap.number[m]);
       if constexpr (friction == Friction::spring) c_.rolling_moment.set(k, get(slab_.rolling_moment, m));
     }
     slab_.count = 0;
@@ -209,9 +211,13 @@ private:
     using std::abs;
     const PackVec3 n = slab_.normal.load(m);
     const Pack radius = slab_.radius.load(m), mass = slab_.mass.load(m);
-    RollingInputOf<Pack> in{
-        spin - wall_spin, n,         abs(response.normal), response.elastic_normal / (slab_.overlap.load(m) + tiny),
-        rolling,          Pack(0.0), step_.rolling_damping};
+    RollingInputOf<Pack> in{spin - wall_spin,
+                            n,
+                            abs(response.normal),
+                            response.elastic_normal / (slab_.overlap.load(m) + tiny<Pack>),
+                            rolling,
+                            Pack(0.0),
+                            step_.rolling_damping};
     if constexpr (friction == Friction::relative) {
       in.inertia = sphere_inertia(mass, radius) / slab_.contacts.load(m);
       return relative_couple(in, step_.dt);
@@ -229,9 +235,9 @@ private:
   State& state_;
   Reactions& reactions_;
   WallContactTable& c_;
-  const ForceStep step_;
+  const ForceStep<double> step_;
   WallSlab slab_{};
-  PackLosses losses_;
+  PackLosses<double> losses_;
   Pack wall_work_ = 0;
   Index crossed_ = -1;
 };
@@ -239,13 +245,13 @@ private:
 /// Pre: fold_reactions ran; dt as in evaluate_contacts.
 /// Post: wall forces are in the table and added to the sums of the grains.
 /// Throws PhysicsError when a grain's centre has gone through a wall.
-template <class Law, Friction friction>
+template <class Law, Friction friction, class Number>
 void evaluate_walls(const WallMix<Law>& mix, State& state, Reactions& reactions, double dt,
                     double rolling_damping) {
   const WallLosses sum = reduce_blocks(
       static_cast<Index>(state.wall_contacts.grain.size()), WallLosses{},
       [&](Index begin, Index end) {
-        return WallPass<Law, friction>(mix, state, reactions, {dt, rolling_damping}).evaluate(begin, end);
+        return WallPass<Law, friction, Number>(mix, state, reactions, {dt, rolling_damping}).evaluate(begin, end);
       },
       [](const WallLosses& a, const WallLosses& b) { return a + b; });
   book(sum.contact, state.energy);

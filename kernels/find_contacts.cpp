@@ -143,7 +143,7 @@ void bin_images(const State& state, NeighbourScratch& s) {
   for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
 }
 
-/// Keeps identity, history and normal of the rows that store something: all that the next list can want of this
+/// Keeps identity and history of the rows that store something: all that the next list can want of this
 /// one.
 void set_aside(const ContactTable& c, NeighbourScratch& s) {
   const auto grains = static_cast<Index>(c.row_begin.size()) - 1;
@@ -160,8 +160,7 @@ void set_aside(const ContactTable& c, NeighbourScratch& s) {
   });
   std::partial_sum(s.old_row_begin.begin(), s.old_row_begin.end(), s.old_row_begin.begin());
   const Index rows = s.old_row_begin.back();
-  for (Array<double>* field :
-       {&s.old_history.x, &s.old_history.y, &s.old_history.z, &s.old_normal.x, &s.old_normal.y, &s.old_normal.z})
+  for (Array<double>* field : {&s.old_history.x, &s.old_history.y, &s.old_history.z})
     resize_with_room(*field, rows);
   s.old_rolling_moment.resize(moments ? at(rows) : 0);
   resize_with_room(s.old_partner, rows);
@@ -173,7 +172,6 @@ void set_aside(const ContactTable& c, NeighbourScratch& s) {
       s.old_partner[to] = c.partner_id[k];
       s.old_turn[to] = c.turn[k];
       s.old_history.set(to, c.history.get(k));
-      s.old_normal.set(to, c.normal.get(k));
       if (moments) s.old_rolling_moment.set(to, c.rolling_moment.get(k));
       ++to;
     }
@@ -219,18 +217,16 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
     c.second[k] = slot;
     c.partner_id[k] = p.id[at(owner)];
     c.turn[k] = image ? state.images.turn[at(slot - n)] : 0;
-    Vec3 history, normal, moment;
+    Vec3 history, moment;
     if (has_old) {
       const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], c.partner_id[k], c.turn[k], s.wrap[at(i)],
                                 s.wrap[at(owner)]);
       if (old >= 0) {
         history = state.symmetry.turn_vector(s.old_history.get(at(old)), s.wrap[at(i)]);
-        normal = state.symmetry.turn_vector(s.old_normal.get(at(old)), s.wrap[at(i)]);
         if (had_moments) moment = state.symmetry.turn_vector(s.old_rolling_moment.get(at(old)), s.wrap[at(i)]);
       }
     }
     c.history.set(k, history);
-    c.normal.set(k, normal);
     if (c.rolling_moment.size() > 0) c.rolling_moment.set(k, moment);
   }
 }

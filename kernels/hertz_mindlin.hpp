@@ -46,7 +46,7 @@ struct HertzMindlin {
     ContactResponseOf<Real> out;
     const Real root = sqrt(in.effective_radius * in.overlap);
     const Real normal_stiffness = 2 * c.young * root;  // tangent: d f_cn / d dn
-    out.elastic_normal = (2.0 / 3.0) * normal_stiffness * in.overlap;
+    out.elastic_normal = constant<Real>(2.0 / 3.0) * normal_stiffness * in.overlap;
     const Real normal_damping = 2 * c.damping_normal * sqrt(in.effective_mass * normal_stiffness);
     out.normal = max(Real(c.lowest_normal), out.elastic_normal + normal_damping * in.approach_velocity);
 

@@ -14,6 +14,14 @@ WEDGE_INLINE Vector3<Real> follow_normal(const Vector3<Real>& u, const Vector3<R
   return u - factor * (before + now);
 }
 
+/// The same where `before` is now + back, but for its length, and `back` is small and perpendicular to `now`.
+/// Without its terms of fourth order in `back`: u - (now . u) (now + back/2).
+template <class Real>
+WEDGE_INLINE Vector3<Real> follow_turning_normal(const Vector3<Real>& u, const Vector3<Real>& back,
+                                                 const Vector3<Real>& now) {
+  return u - dot(now, u) * (now + constant<Real>(0.5) * back);
+}
+
 /// Turns u, perpendicular to the unit vector n, about n by the angle 2 atan(half_angle) ~ 2 half_angle.
 /// The Cayley form of a rotation: keeps the length exactly, the angle to third order.
 template <class Real>
@@ -31,10 +39,10 @@ WEDGE_INLINE Vector3<Real> spin_about_normal(const Vector3<Real>& u, const Vecto
 /// order dt^2.
 template <class Real>
 WEDGE_INLINE Real slip_time(const Vector3<Real>& stored, const Real& overlap, const Real& approach_velocity,
-                            double dt) {
+                            number_in<Real> dt) {
   const auto is_new = stored.x == 0 && stored.y == 0 && stored.z == 0 && overlap > 0;
-  const Real half_step(0.5 * dt);
-  if (__builtin_expect(!any_of(is_new), 1)) return half_step;  // few contacts are new
+  const Real half_step(dt / 2);
+  if (__builtin_expect(!any_lane(is_new), 1)) return half_step;  // few contacts are new
   const Real whole_step(dt);
   const Real since_touch = select(approach_velocity * dt > overlap, overlap / approach_velocity, whole_step);
   return select(is_new, since_touch, half_step);

@@ -22,10 +22,31 @@ std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
   return turns;
 }
 
-template <class T>
-void resize_with_room(Array<T>& array, std::size_t n) {
+template <class Array_>
+void resize_with_room(Array_& array, std::size_t n) {
   if (n > array.capacity()) array.reserve(n + n / 16 + 64);
   array.resize(n);
+}
+
+template <class Number>
+void refresh(State& state) {
+  Particles& p = state.particles;
+  const ImageMap& images = state.images;
+  const Symmetry& symmetry = state.symmetry;
+  SeenOf<Number>* const seen = p.seen.data<Number>();
+  const Index n = p.count();
+  for_each(images.count(), [&](Index m) {
+    const auto image = static_cast<std::size_t>(n + m),
+               owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
+    const int k = images.turn[static_cast<std::size_t>(m)];
+    const SeenOf<Number>& original = seen[owner];
+    SeenOf<Number>& copy = seen[image];
+    copy = original;
+    copy.position = symmetry.turn_point(original.position, k);
+    copy.velocity = in_width<Number>(symmetry.turn_vector(in_width<double>(original.velocity), k));
+    copy.angular_velocity = in_width<Number>(symmetry.turn_vector(in_width<double>(original.angular_velocity), k));
+    p.position.set(image, copy.position);
+  });
 }
 
 }  // namespace
@@ -71,22 +92,10 @@ void make_images(State& state, AxisRule axis) {
 }
 
 void refresh_images(State& state) {
-  Particles& p = state.particles;
-  const ImageMap& images = state.images;
-  const Symmetry& symmetry = state.symmetry;
-  const Index n = p.count();
-  for_each(images.count(), [&](Index m) {
-    const auto image = static_cast<std::size_t>(n + m),
-               owner = static_cast<std::size_t>(images.owner[static_cast<std::size_t>(m)]);
-    const int k = images.turn[static_cast<std::size_t>(m)];
-    const Seen& original = p.seen[owner];
-    Seen& copy = p.seen[image];
-    copy = original;
-    copy.position = symmetry.turn_point(original.position, k);
-    copy.velocity = symmetry.turn_vector(original.velocity, k);
-    copy.angular_velocity = symmetry.turn_vector(original.angular_velocity, k);
-    p.position.set(image, copy.position);
-  });
+  if (state.particles.seen.precision() == Precision::mixed)
+    refresh<float>(state);
+  else
+    refresh<double>(state);
 }
 
 }  // namespace wedge

@@ -42,7 +42,7 @@ WEDGE_INLINE Vector3<Real> clamped_at_axis(const Vector3<Real>& v, const Vector3
   const Real outward = position.x * v.x + position.y * v.y;  // r v_r
   const Real nearest = 2 * axis_resolution * radius;
   const auto reaches = r2 < radius * radius && r2 >= nearest * nearest && outward < 0;
-  if (!any_of(reaches)) return v;  // most grains are far from the axis
+  if (!any_lane(reaches)) return v;  // most grains are far from the axis
   const Real take = select(reaches, outward / r2, Real(0.0));
   return {v.x - take * position.x, v.y - take * position.y, v.z};
 }
@@ -72,7 +72,7 @@ WEDGE_INLINE Vector3<Real> spun(const Vector3<Real>& w, const Vector3<Real>& t, 
   const Real rate = h / inertia;
   const Vector3<Real> free = w + rate * t;
   const Real square = dot(free, free);
-  const Real left = max(Real(0.0), 1 - rate * cap / sqrt(square + tiny));
+  const Real left = max(Real(0.0), 1 - rate * cap / sqrt(square + tiny<Real>));
   loss += 0.5 * inertia * (1 - left) * (dot(free, w) + left * square);  // taken() for now = left free
   return left * free;
 }

@@ -68,6 +68,21 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
 template <Friction friction>
 using Level = std::integral_constant<Friction, friction>;
 
+/// What the grains of a scene have in common.
+enum class Alike { nothing, material, material_and_radius };
+template <Alike alike>
+using Common = std::integral_constant<Alike, alike>;
+
+inline Alike common_to(const State& state, bool uniform) {
+  const Particles& p = state.particles;
+  const auto n = static_cast<std::size_t>(p.count());
+  if (n == 0) return Alike::nothing;
+  if (uniform) return Alike::material_and_radius;
+  const bool one = std::all_of(p.material.begin(), p.material.begin() + p.count(),
+                               [&](std::int32_t m) { return m == p.material[0]; });
+  return one ? Alike::material : Alike::nothing;
+}
+
 template <class Law>
 inline constexpr bool is_total_coulomb = false;
 template <class Law>
@@ -89,36 +104,50 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
   if (friction == Friction::rolling) level.template emplace<2>();
   if (friction == Friction::relative) level.template emplace<3>();
   if (friction == Friction::spring) level.template emplace<4>();
-  std::variant<std::false_type, std::true_type> budget = std::false_type{}, alike = std::false_type{};
+  std::variant<std::false_type, std::true_type> budget;
   if (scene.output.energy_budget) budget = std::true_type{};
-  if (uniform && state.particles.count() > 0) alike = std::true_type{};
+  std::variant<Common<Alike::nothing>, Common<Alike::material>, Common<Alike::material_and_radius>> common;
+  if (common_to(state, uniform) == Alike::material) common.template emplace<1>();
+  if (common_to(state, uniform) == Alike::material_and_radius) common.template emplace<2>();
+  std::variant<double, float> width;
+  if (scene.run.precision == Precision::mixed) width = 0.0f;
 
   const double damping = scene.contact.rolling_damping;
   std::visit(
-      [&](auto f, auto with_budget, auto one_kind) {
+      [&](auto f, auto with_budget, auto in_common, auto number) {
+        using Number = decltype(number);
         constexpr Friction need = decltype(f)::value;
         constexpr bool books = decltype(with_budget)::value;
         constexpr bool compared =
             is_total_coulomb<Law> || has_couples(need);  // for comparison: no loop of their own
+        constexpr Alike alike = compared ? Alike::nothing : decltype(in_common)::value;
+        const auto pass = [damping](const auto& mix) {
+          return [mix, damping](State& s, Reactions& r, double dt) {
+            evaluate_contacts<Law, need, books || compared>(mix, s, r, dt, damping);
+          };
+        };
+        const auto of_first = [&] {
+          const int m = state.particles.material[0];
+          return coefficients_in<Law, Number>(table(m, m));
+        };
         passes.evaluate_walls = [walls, damping](State& s, Reactions& r, double dt) {
-          evaluate_walls<Law, need>(walls, s, r, dt, damping);
+          evaluate_walls<Law, need, Number>(walls, s, r, dt, damping);
         };
         passes.contact_forces = [table](const State& s) { return contact_forces<Law>(table, need, s); };
-        if constexpr (decltype(one_kind)::value && !compared) {
-          const int m = state.particles.material[0];
-          const UniformMix<Law> mix{state.particles.radius[0], state.particles.mass[0], table(m, m)};
-          passes.evaluate_contacts = [mix, damping](State& s, Reactions& r, double dt) {
-            evaluate_contacts<Law, need, books>(mix, s, r, dt, damping);
-          };
+        if constexpr (alike == Alike::material_and_radius) {
+          passes.evaluate_contacts =
+              pass(UniformMix<Law, Number>{static_cast<Number>(state.particles.radius[0]),
+                                           static_cast<Number>(state.particles.mass[0]), of_first()});
+        } else if constexpr (alike == Alike::material) {
+          passes.evaluate_contacts = pass(SizeMix<Law, Number>{of_first()});
         } else {
-          passes.evaluate_contacts = [table, damping](State& s, Reactions& r, double dt) {
+          passes.evaluate_contacts = [table, pass](State& s, Reactions& r, double dt) {
             if constexpr (need == Friction::relative) count_contacts(s);
-            const GeneralMix<Law> mix{table.entries().data()};
-            evaluate_contacts<Law, need, books || compared>(mix, s, r, dt, damping);
+            pass(GeneralMix<Law, Number>{table.entries().data()})(s, r, dt);
           };
         }
       },
-      level, budget, alike);
+      level, budget, common, width);
   return passes;
 }
 

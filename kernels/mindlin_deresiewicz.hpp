@@ -56,17 +56,17 @@ struct MindlinDeresiewicz {
     using std::max, std::min, std::sqrt;
     ContactResponseOf<Real> out;
     const Real root = sqrt(in.effective_radius * in.overlap);
-    out.elastic_normal = (4.0 / 3.0) * c.young * root * in.overlap;
+    out.elastic_normal = constant<Real>(4.0 / 3.0) * c.young * root * in.overlap;
     const Real damping = c.damping_normal * sqrt(8 * in.effective_mass * c.young * root);
     out.normal = max(Real(c.lowest_normal), out.elastic_normal + damping * in.approach_velocity);
 
     const Real length_squared = dot(in.displacement, in.displacement);
-    const Real inverse_length = 1 / sqrt(length_squared + tiny);
+    const Real inverse_length = 1 / sqrt(length_squared + tiny<Real>);
     const Real length = length_squared * inverse_length;
     const Real length_max = c.limit * in.overlap;
-    const Real left = max(Real(0.0), 1 - length / (length_max + tiny));  // 1 - dt/dt_max
+    const Real left = max(Real(0), 1 - length / (length_max + tiny<Real>));  // 1 - dt/dt_max
     const Real left_root = sqrt(left);
-    const Real keep = min(Real(1.0), length_max * inverse_length);  // cut back to dt_max
+    const Real keep = min(Real(1), length_max * inverse_length);  // cut back to dt_max
     const Real cap = c.sliding * out.elastic_normal;
     const Real elastic = cap * (1 - left * left_root);
     const Real viscous = sqrt(c.damping_tangential_squared * in.effective_mass * root * left_root);
@@ -88,7 +88,7 @@ struct MindlinDeresiewicz {
     const double limit = c.limit * overlap;
     const double load = c.sliding * (4.0 / 3.0) * c.young * std::sqrt(effective_radius * overlap) * overlap;
     const double s = std::min(length, limit);
-    const double left = 1 - s / (limit + tiny);
+    const double left = 1 - s / (limit + tiny<double>);
     return load * (s - (2.0 / 5.0) * limit * (1 - left * left * std::sqrt(left)));
   }
 };

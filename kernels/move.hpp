@@ -82,33 +82,54 @@ struct GrainColumns {
   Column number[seen_size];
 
   /// Writes what contacts will see of the first `count` grains.
-  void write(Seen* to, Index count) const {
+  template <class Number>
+  void write(SeenOf<Number>* to, Index count) const {
     for (Index row = 0; row < count; row += 8) {
-      Eight columns[8], motion[8], spin[8];
-      for (std::size_t c = 0; c < 8; ++c) columns[c] = *reinterpret_cast<const Eight*>(number[c].number + row);
-      transpose(columns, motion);
-      for (std::size_t c = 0; c < 4; ++c) columns[c] = *reinterpret_cast<const Eight*>(number[8 + c].number + row);
-      transpose(columns, spin);
-      for (Index r = 0; r < std::min<Index>(8, count - row); ++r) {
-        *reinterpret_cast<UnalignedEight*>(&to[row + r]) = motion[r];
-        *reinterpret_cast<Four*>(&to[row + r].angular_velocity) =
-            __builtin_shufflevector(spin[r], spin[r], 0, 1, 2, 3);
+      const auto columns = [&](std::size_t c) { return number[c].load_eight(row); };
+      const auto narrow = [&](std::size_t c) { return __builtin_convertvector(columns(c), EightFloats); };
+      const Index rows = std::min<Index>(8, count - row);
+      if constexpr (std::is_same_v<Number, float>) {
+        const Eight place[] = {columns(0), columns(1), columns(2), columns(3)};
+        const EightFloats motion[] = {narrow(4), narrow(5), narrow(6),  narrow(7),
+                                      narrow(8), narrow(9), narrow(10), narrow(11)};
+        Four places[8];
+        EightFloats motions[8];
+        transpose(place, places);
+        transpose(motion, motions);
+        for (Index r = 0; r < rows; ++r) {
+          *reinterpret_cast<Four*>(&to[row + r].position) = places[r];
+          *reinterpret_cast<EightFloats*>(&to[row + r].velocity) = motions[r];
+        }
+      } else {
+        const Eight motion[] = {columns(0), columns(1), columns(2), columns(3),
+                                columns(4), columns(5), columns(6), columns(7)};
+        const Eight spin[] = {columns(8), columns(9), columns(10), columns(11)};
+        Eight motions[8];
+        Four spins[8];
+        transpose(motion, motions);
+        transpose(spin, spins);
+        for (Index r = 0; r < rows; ++r) {
+          *reinterpret_cast<UnalignedEight*>(&to[row + r]) = motions[r];
+          *reinterpret_cast<Four*>(&to[row + r].angular_velocity) = spins[r];
+        }
       }
     }
   }
   /// Reads the sums of the first `count` grains.
-  void read(const double* sums, Index count) {
+  template <class Number>
+  void read(const Number* sums, Index count) {
     for (Index row = 0; row < count; row += 8) {
-      Eight records[8], columns[8];
-      for (Index r = 0; r < 8; ++r) records[r] = reinterpret_cast<const Eight*>(sums)[std::min(row + r, count - 1)];
+      eight_of<Number> records[8], columns[8];
+      for (Index r = 0; r < 8; ++r)
+        records[r] = reinterpret_cast<const eight_of<Number>*>(sums)[std::min(row + r, count - 1)];
       transpose(records, columns);
-      for (std::size_t c = 0; c < Reactions::sum_size; ++c)
-        *reinterpret_cast<Eight*>(number[c].number + row) = columns[c];
+      for (std::size_t c = 0; c < Reactions::sum_size; ++c) number[c].store_eight(row, columns[c]);
     }
   }
 };
 
-template <Halves halves, Friction friction, AxisAction axis, class Bodies>
+/// `Number` is the width of what contacts see and of the sums of forces.
+template <Halves halves, Friction friction, AxisAction axis, class Number, class Bodies>
 class MovePass {
 public:
   MovePass(const Bodies& bodies, Particles& p, const Reactions& reactions, Vec3 gravity, double dt)
@@ -124,7 +145,7 @@ public:
         reference_(p.reference),
         cap_(p.rolling_cap.data()),
         margin_(p.list_margin.data()),
-        seen_(p.seen.data()) {}
+        seen_(p.seen.data<Number>()) {}
 
   /// Grains [begin, end).
   MoveResult move(Index begin, Index end) {
@@ -132,7 +153,7 @@ public:
     Losses<double> singles;
     for (Index from = begin; from < end; from += slab_size) {
       const Index count = std::min(slab_size, end - from);
-      if constexpr (halves != Halves::first) sums_.read(reactions_.sum(from), count);
+      if constexpr (halves != Halves::first) sums_.read(reactions_.sum<Number>(from), count);
       Index row = 0;
       for (; row + pack_size <= count; row += pack_size) move(from, row, packs);
       for (; row < count; ++row) move(from, row, singles);
@@ -208,8 +229,8 @@ private:
   template <class Real>
   WEDGE_INLINE void show(Index i, Index row, const Vector3<Real>& x, const Vector3<Real>& v, const Vector3<Real>& w,
                          const Real& radius, const Real& mass) {
-    const Real shown[] = {x.x,    x.y,  x.z, v.x, v.y, v.z,
-                          radius, mass, w.x, w.y, w.z, bodies_.template material<Real>(i)};
+    const Real shown[] = {x.x, x.y,  x.z, radius, v.x, v.y,
+                          v.z, mass, w.x, w.y,    w.z, bodies_.template material<Real>(i)};
     for (std::size_t c = 0; c < std::size(shown); ++c) store(shown_.number[c].number + row, shown[c]);
   }
 
@@ -220,7 +241,7 @@ private:
   const Components x_, v_, w_, force_, torque_, reference_;
   double* const cap_;
   const double* const margin_;
-  Seen* const seen_;
+  SeenOf<Number>* const seen_;
   GrainColumns sums_, shown_;
 };
 
@@ -228,12 +249,12 @@ private:
 /// dt/2, drifts by dt, and predicts the velocities that contacts will see at the new time. Returns whether the
 /// neighbour list went stale. Post: after `second` alone, force, torque and rolling_cap hold the forces of the
 /// step, which `first` alone starts from.
-template <Halves halves, Friction friction, AxisAction axis, class Bodies>
+template <Halves halves, Friction friction, AxisAction axis, class Number, class Bodies>
 bool move_grains(const Bodies& bodies, State& state, const Reactions& reactions, Vec3 gravity, double dt) {
   const MoveResult result = reduce_blocks(
       state.particles.count(), MoveResult{},
       [&](Index begin, Index end) {
-        return MovePass<halves, friction, axis, Bodies>(bodies, state.particles, reactions, gravity, dt)
+        return MovePass<halves, friction, axis, Number, Bodies>(bodies, state.particles, reactions, gravity, dt)
             .move(begin, end);
       },
       [](const MoveResult& a, const MoveResult& b) { return a + b; });

@@ -23,7 +23,7 @@ struct NeighbourScratch {
   // The touching contacts of the list before, for carrying histories, by the slots grains had then.
   Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
   Array<std::int32_t> old_partner, old_turn;
-  Vec3Array old_history, old_normal, old_rolling_moment;
+  Vec3Array old_history, old_rolling_moment;
   WallContactTable old_walls;
 };
 

@@ -76,6 +76,26 @@ void list_sources(const State& state, const std::vector<Guests>& guests, Reactio
   }
 }
 
+template <class Number>
+void fold(const State& state, Reactions& r) {
+  const auto last = static_cast<Index>(r.source.size()) - 1;
+  for_each(static_cast<Index>(r.receiver.size()), [&](Index m) {
+    Number* sum = r.sum<Number>(r.receiver[at(m)]);
+    const Index soon = std::min(r.source_begin[at(m)] + fetched_ahead, last);
+    __builtin_prefetch(r.sum<Number>(r.source[at(soon)]));
+    for (std::size_t s = at(r.source_begin[at(m)]); s < at(r.source_begin[at(m) + 1]); ++s) {
+      const Number* guest = r.sum<Number>(r.source[s]);
+      Vec3 force{guest[0], guest[1], guest[2]}, torque{guest[3], guest[4], guest[5]};
+      if (r.source_turn[s] != 0) {
+        force = state.symmetry.turn_vector(force, r.source_turn[s]);
+        torque = state.symmetry.turn_vector(torque, r.source_turn[s]);
+      }
+      const double felt[] = {force.x, force.y, force.z, torque.x, torque.y, torque.z, guest[6]};
+      for (int c = 0; c < 7; ++c) sum[c] += static_cast<Number>(felt[c]);
+    }
+  });
+}
+
 }  // namespace
 
 void map_reactions(const State& state, AxisRule axis, Reactions& r) {
@@ -96,28 +116,19 @@ void map_reactions(const State& state, AxisRule axis, Reactions& r) {
                                                   : r.guests_begin[at(tile)] + guests[at(tile)].sum_of(slot);
     }
   });
-  r.sums.resize(Reactions::sum_size * at(r.guests_begin[at(tiles)]));
+  const std::size_t numbers = Reactions::sum_size * at(r.count());
+  const bool mixed = state.particles.seen.precision() == Precision::mixed;
+  r.double_sums.resize(mixed ? 0 : numbers);
+  r.single_sums.resize(mixed ? numbers : 0);
   list_sources(state, guests, r);
   r.list = state.list_builds;
 }
 
-void fold_reactions(const State& state, Reactions& r) {
-  const auto last = static_cast<Index>(r.source.size()) - 1;
-  for_each(static_cast<Index>(r.receiver.size()), [&](Index m) {
-    double* sum = r.sum(r.receiver[at(m)]);
-    const Index soon = std::min(r.source_begin[at(m)] + fetched_ahead, last);
-    __builtin_prefetch(r.sum(r.source[at(soon)]));
-    for (std::size_t s = at(r.source_begin[at(m)]); s < at(r.source_begin[at(m) + 1]); ++s) {
-      const double* guest = r.sum(r.source[s]);
-      Vec3 force{guest[0], guest[1], guest[2]}, torque{guest[3], guest[4], guest[5]};
-      if (r.source_turn[s] != 0) {
-        force = state.symmetry.turn_vector(force, r.source_turn[s]);
-        torque = state.symmetry.turn_vector(torque, r.source_turn[s]);
-      }
-      const double felt[] = {force.x, force.y, force.z, torque.x, torque.y, torque.z, guest[6]};
-      for (int c = 0; c < 7; ++c) sum[c] += felt[c];
-    }
-  });
+void fold_reactions(const State& state, Reactions& reactions) {
+  if (state.particles.seen.precision() == Precision::mixed)
+    fold<float>(state, reactions);
+  else
+    fold<double>(state, reactions);
 }
 
 }  // namespace wedge

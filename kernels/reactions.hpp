@@ -20,12 +20,29 @@ inline Index tile_count(Index grains) { return (grains + tile_size - 1) / tile_s
 struct Reactions {
   /// A sum: force [N] (3), torque [N m] (3), mu_r |f_n| [N m], not used.
   static constexpr std::size_t sum_size = 8;
-  Array<double> sums;  // grains first, then the guests of each tile
-  double* sum(Index s) { return sums.data() + sum_size * static_cast<std::size_t>(s); }
-  const double* sum(Index s) const { return sums.data() + sum_size * static_cast<std::size_t>(s); }
-  Vec3 force(Index s) const { return {sum(s)[0], sum(s)[1], sum(s)[2]}; }
-  Vec3 torque(Index s) const { return {sum(s)[3], sum(s)[4], sum(s)[5]}; }
-  double rolling_cap(Index s) const { return sum(s)[6]; }
+  /// Sum s, of the width of the work on contacts. Grains first, then the guests of each tile.
+  /// Pre: Number is float where the precision is mixed, and double otherwise.
+  template <class Number>
+  Number* sum(Index s) {
+    const std::size_t first = sum_size * static_cast<std::size_t>(s);
+    if constexpr (std::is_same_v<Number, float>)
+      return single_sums.data() + first;
+    else
+      return double_sums.data() + first;
+  }
+  template <class Number>
+  const Number* sum(Index s) const {
+    return const_cast<Reactions*>(this)->sum<Number>(s);
+  }
+  double component(Index s, std::size_t c) const {
+    return single_sums.empty() ? sum<double>(s)[c] : static_cast<double>(sum<float>(s)[c]);
+  }
+  Vec3 force(Index s) const { return {component(s, 0), component(s, 1), component(s, 2)}; }
+  Vec3 torque(Index s) const { return {component(s, 3), component(s, 4), component(s, 5)}; }
+  double rolling_cap(Index s) const { return component(s, 6); }
+  Index count() const { return guests_begin.empty() ? 0 : guests_begin.back(); }
+  Array<double> double_sums;  // one of the two is empty
+  Array<float> single_sums;
 
   Array<Index> target;        // per row: the sum for what its `second` feels
   Array<Index> guests_begin;  // per tile: its first guest sum; one entry more than there are tiles

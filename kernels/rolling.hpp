@@ -11,13 +11,13 @@ namespace wedge {
 /// One contact, or a pack of them, as rolling resistance sees it. Couples are those on the first body.
 template <class Real>
 struct RollingInputOf {
-  Vector3<Real> spin;    // rad/s: angular velocity of the first body less that of the second
-  Vector3<Real> normal;  // unit vector first -> second
-  Real load{};           // N: size of the total normal force
-  Real stiffness{};      // N/m: f_cn / dn
-  Real rolling{};        // m: mu_r
-  Real inertia{};        // kg m2: effective, for the model at hand
-  double damping_ratio;  // of critical, of the rolling spring
+  Vector3<Real> spin;             // rad/s: angular velocity of the first body less that of the second
+  Vector3<Real> normal;           // unit vector first -> second
+  Real load{};                    // N: size of the total normal force
+  Real stiffness{};               // N/m: f_cn / dn
+  Real rolling{};                 // m: mu_r
+  Real inertia{};                 // kg m2: effective, for the model at hand
+  number_in<Real> damping_ratio;  // of critical, of the rolling spring
 };
 using RollingInput = RollingInputOf<double>;
 
@@ -26,18 +26,18 @@ using RollingInput = RollingInputOf<double>;
 /// it a couple of c I w / dt has the roots of z^2 - (1 - 3c/2) z - c/2: at c = 1 one of them is -1, a chatter that
 /// never dies.) inertia: I_i I_j / (I_i + I_j), shared by the contacts of the busier body.
 template <class Real>
-WEDGE_INLINE Vector3<Real> relative_couple(const RollingInputOf<Real>& in, double dt) {
+WEDGE_INLINE Vector3<Real> relative_couple(const RollingInputOf<Real>& in, number_in<Real> dt) {
   using std::min, std::sqrt;
-  const Real speed = sqrt(dot(in.spin, in.spin) + tiny);
+  const Real speed = sqrt(dot(in.spin, in.spin) + tiny<Real>);
   Real couple = in.rolling * in.load;
-  if (dt > 0) couple = min(couple, 0.5 * in.inertia * speed / dt);
+  if (dt > 0) couple = min(couple, constant<Real>(0.5) * in.inertia * speed / dt);
   return (-couple / speed) * in.spin;
 }
 
 /// Inertia about the contact point [kg m2] of a sphere, for the damping of the rolling spring.
 template <class Real>
 WEDGE_INLINE Real rocking_inertia(const Real& mass, const Real& radius) {
-  return (2.0 / 5.0 + 1.0) * mass * radius * radius;
+  return constant<Real>(2.0 / 5.0 + 1.0) * mass * radius * radius;
 }
 
 template <class Real>
@@ -53,16 +53,16 @@ using RollingSpring = RollingSpringOf<double>;
 /// 1/I_j) with the inertias about the contact point.
 template <class Real>
 WEDGE_INLINE RollingSpringOf<Real> rolling_spring(const RollingInputOf<Real>& in, const Vector3<Real>& moment,
-                                                  double dt) {
+                                                  number_in<Real> dt) {
   using std::sqrt;
   const Vector3<Real> rolling = in.spin - dot(in.spin, in.normal) * in.normal;
-  const Real stiffness = 2.25 * in.stiffness * in.rolling * in.rolling;
-  const Vector3<Real> half_step = (-0.5 * dt * stiffness) * rolling;
+  const Real stiffness = constant<Real>(2.25) * in.stiffness * in.rolling * in.rolling;
+  const Vector3<Real> half_step = (constant<Real>(-0.5) * dt * stiffness) * rolling;
   const Vector3<Real> free = moment + half_step;
   const Real limit = in.rolling * in.load, size = norm(free);
   const auto holds = size < limit;
-  const Vector3<Real> kept = select(holds, Real(1.0), limit / (size + tiny)) * free;
-  const Real damping = select(holds, in.damping_ratio * 2 * sqrt(in.inertia * stiffness), Real(0.0));
+  const Vector3<Real> kept = select(holds, Real(1), limit / (size + tiny<Real>)) * free;
+  const Real damping = select(holds, in.damping_ratio * 2 * sqrt(in.inertia * stiffness), Real(0));
   return {kept - damping * rolling, kept + half_step};
 }
 

@@ -59,7 +59,8 @@ constexpr double default_skin = 0.02;  // mean diameters, of a pair at rest (per
 
 }  // namespace
 
-TimeStep::TimeStep(const Scene& scene, const State& state) : domain_(scene.domain) {
+TimeStep::TimeStep(const Scene& scene, State& state) : domain_(scene.domain) {
+  state.particles.seen.set_precision(scene.run.precision);
   const Friction friction = needed_friction(scene);
   const bool uniform = state.alike && state.particles.count() > 0;
   const double skin = scene.run.skin > 0 ? scene.run.skin : default_skin * state.mean_diameter;
@@ -118,8 +119,8 @@ void TimeStep::start(State& state, double dt) {
   Particles& p = state.particles;
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
-    p.seen[s] = {p.position.get(s), p.velocity.get(s),         p.radius[s],
-                 p.mass[s],         p.angular_velocity.get(s), static_cast<double>(p.material[s])};
+    p.seen.set(s, {p.position.get(s), p.radius[s], p.velocity.get(s), p.mass[s], p.angular_velocity.get(s),
+                   static_cast<double>(p.material[s])});
   }
   renew_list(state, dt);
   forces(state, 0);
@@ -151,7 +152,8 @@ void TimeStep::book_departures(State& state) {
   for (Index i = 0; i < p.count(); ++i) {
     const auto s = static_cast<std::size_t>(i);
     if (!scratch_.leaves[s]) continue;
-    const Vec3 v = p.seen[s].velocity, w = p.seen[s].angular_velocity;
+    const Seen seen = p.seen.get(s);
+    const Vec3 v = seen.velocity, w = seen.angular_velocity;
     state.energy.carried_out += 0.5 * p.mass[s] * dot(v, v) +
                                 0.5 * sphere_inertia(p.mass[s], p.radius[s]) * dot(w, w) -
                                 p.mass[s] * dot(g, p.position.get(s));

@@ -29,8 +29,8 @@ struct EnergyBudget {
 class TimeStep {
 public:
   /// Chooses laws and types from the scene and from what the grains of `state` have in common. Pre:
-  /// describe_grains.
-  TimeStep(const Scene& scene, const State& state);
+  /// describe_grains. Post: what contacts see is kept in the scene's precision.
+  TimeStep(const Scene& scene, State& state);
 
   /// Makes the first neighbour list and the forces of the first moment. Throws PhysicsError.
   void start(State& state, double dt);

@@ -12,7 +12,7 @@ struct TotalCoulomb : Law {
   WEDGE_INLINE static ContactResponseOf<Real> respond(const Coefficients& c, const ContactInputOf<Real>& in) {
     ContactResponseOf<Real> out = Law::respond(c, in);
     const Real limit = c.sliding * out.elastic_normal, size = norm(out.tangential);
-    out.tangential = select(size > limit, limit / (size + tiny), Real(1.0)) * out.tangential;
+    out.tangential = select(size > limit, limit / (size + tiny<Real>), Real(1)) * out.tangential;
     return out;
   }
 };

@@ -66,19 +66,20 @@ void permute_seen(Particles& p, NeighbourScratch& s) {
   for (Vec3 Seen::*const vector : {&Seen::velocity, &Seen::angular_velocity}) {
     for_each(n, [&](Index k) {
       const auto to = static_cast<std::size_t>(k);
-      s.places.set(to, p.seen[static_cast<std::size_t>(s.order[to])].*vector);
+      s.places.set(to, p.seen.get(static_cast<std::size_t>(s.order[to])).*vector);
     });
     for_each(n, [&](Index k) {
       const auto to = static_cast<std::size_t>(k);
-      p.seen[to].*vector = s.places.get(to);
+      Seen seen = p.seen.get(to);
+      seen.*vector = s.places.get(to);
+      p.seen.set(to, seen);
     });
   }
   for_each(n, [&](Index k) {
     const auto i = static_cast<std::size_t>(k);
-    p.seen[i].position = p.position.get(i);
-    p.seen[i].radius = p.radius[i];
-    p.seen[i].mass = p.mass[i];
-    p.seen[i].material = p.material[i];
+    const Seen seen = p.seen.get(i);
+    p.seen.set(i, {p.position.get(i), p.radius[i], seen.velocity, p.mass[i], seen.angular_velocity,
+                   static_cast<double>(p.material[i])});
   });
 }
 
@@ -124,9 +125,10 @@ void wrap(State& state, NeighbourScratch& scratch) {
     p.position.set(s, symmetry.turn_point(p.position.get(s), k));
     for (Vec3Array* field : {&p.velocity, &p.angular_velocity, &p.force, &p.torque})
       field->set(s, symmetry.turn_vector(field->get(s), k));
-    Seen& seen = p.seen[s];
+    Seen seen = p.seen.get(s);
     seen.position = p.position.get(s);
     for (Vec3* vector : {&seen.velocity, &seen.angular_velocity}) *vector = symmetry.turn_vector(*vector, k);
+    p.seen.set(s, seen);
     p.turns[s] -= k;
   });
 }
@@ -148,12 +150,12 @@ Index mark_departures(State& state, NeighbourScratch& scratch, double outlet) {
     if (leaving++ == 0) scratch.leaves.assign(static_cast<std::size_t>(p.count()), 0);
     scratch.leaves[s] = 1;
     Departure d;
-    const double fall = p.seen[s].velocity.z;
-    d.time = state.time + (fall < 0 ? (outlet - p.position.z[s]) / fall : 0.0);
+    const Vec3 velocity = p.seen.get(s).velocity;
+    d.time = state.time + (velocity.z < 0 ? (outlet - p.position.z[s]) / velocity.z : 0.0);
     d.id = p.id[s];
     d.layer = p.layer[s];
     d.position = p.position.get(s);
-    d.velocity = p.seen[s].velocity;
+    d.velocity = velocity;
     d.mass = p.mass[s];
     state.departures.push_back(d);
   }

@@ -26,15 +26,18 @@ namespace {
 /// s: a step so short that it leaves the bed as it is, so that each call finds what the last one found.
 constexpr double still = 1e-12;
 
-enum class Grains { alike, two_kinds };
-
 /// A settled column.
 struct SettledColumn {
   long grains;
   std::string places;  // file
   Grains kind;
+  Precision precision;
 
-  std::string name() const { return (kind == Grains::alike ? "/alike/" : "/two_kinds/") + std::to_string(grains); }
+  std::string name() const {
+    constexpr const char* kinds[] = {"/alike/", "/sizes/", "/kinds/"};
+    return kinds[static_cast<int>(kind)] + std::string(precision == Precision::mixed ? "mixed/" : "double/") +
+           std::to_string(grains);
+  }
 };
 
 /// A bed at rest, with forces and everything a pass reads.
@@ -59,15 +62,16 @@ struct Bed {
 
 /// The settled column. Made once for all benchmarks of its size.
 Bed& settled_bed(const SettledColumn& c) {
-  static std::map<std::pair<long, Grains>, std::unique_ptr<Bed>> beds;
-  std::unique_ptr<Bed>& bed = beds[{c.grains, c.kind}];
+  static std::map<std::string, std::unique_ptr<Bed>> beds;
+  std::unique_ptr<Bed>& bed = beds[c.name()];
   if (!bed) {
     bed = std::make_unique<Bed>();
     ColumnOptions column;
     column.particles = c.grains;
-    column.two_kinds = c.kind == Grains::two_kinds;
+    column.grains = c.kind;
+    column.precision = c.precision;
     bed->scene = column_scene(column);
-    bed->state = column_state(bed->scene, c.places);
+    bed->state = column_state(bed->scene, c.places, c.kind);
     settle(bed->scene, bed->state, 0.02);
     map_reactions(bed->state, bed->scene.domain.axis, bed->reactions);
   }
@@ -196,8 +200,9 @@ int main(int argc, char** argv) {
   for (const long grains : {2000L, 32000L, 120000L}) {
     const std::string places = std::string(argv[1]) + "/column_" + std::to_string(grains) + ".txt";
     if (std::ifstream(places)) {
-      wedge::add_passes({grains, places, wedge::Grains::alike});
-      wedge::add_passes({grains, places, wedge::Grains::two_kinds});
+      for (const wedge::Grains kind : {wedge::Grains::alike, wedge::Grains::sizes, wedge::Grains::kinds})
+        for (const wedge::Precision precision : {wedge::Precision::double_precision, wedge::Precision::mixed})
+          wedge::add_passes({grains, places, kind, precision});
     } else {
       std::fprintf(stderr, "bench_passes: %s is missing (perf/run.sh makes it): %ld grains left out\n",
                    places.c_str(), grains);

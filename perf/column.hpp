@@ -19,13 +19,17 @@ inline constexpr double column_dt = 2.26e-5;         // s, the paper's
 inline constexpr double column_diameter = 0.005;     // m, of a grain
 inline constexpr double column_vessel_radius = 0.1;  // m
 
+/// What the grains of the column have in common; `sizes`: the material, `kinds`: nothing. They differ by less than
+/// changes a contact, so that loops for different grains compute the same bed.
+enum class Grains { alike, sizes, kinds };
+
 struct ColumnOptions {
   long particles = 32000;  // of the whole vessel
   Friction friction = Friction::rolling;
   int order = 1;  // the vessel is cut into so many sectors
+  Precision precision = Precision::double_precision;
   bool energy_budget = true;
-  /// Of two materials with the same numbers, so that the loops for grains of any kind compute the same bed.
-  bool two_kinds = false;
+  Grains grains = Grains::alike;
 };
 
 inline Scene column_scene(const ColumnOptions& options) {
@@ -35,7 +39,7 @@ inline Scene column_scene(const ColumnOptions& options) {
   s.domain.order = options.order;
   s.domain.kind = options.order > 1 ? DomainKind::sector : DomainKind::full;
   s.materials = {{"grain", 3800, 1e7, 0.3}, {"wall", 3800, 1e7, 0.3}};
-  if (options.two_kinds) s.materials.push_back({"twin", 3800, 1e7, 0.3});
+  if (options.grains == Grains::kinds) s.materials.push_back({"twin", 3800, 1e7, 0.3});
   const int kinds = static_cast<int>(s.materials.size());
   s.interactions = PairTable<Interaction>(kinds);
   for (int a = 0; a < kinds; ++a) {
@@ -63,25 +67,25 @@ inline Scene column_scene(const ColumnOptions& options) {
   fill.speed = 0.05;
   s.particles.grains = fill;
   s.output.energy_budget = options.energy_budget;
+  s.run.precision = options.precision;
   return s;
 }
 
-/// Grains at rest at the places of a file, lines "x y z" [m]. Where the scene has two kinds of grains each second
-/// one is of the other material, and each third one is smaller, by less than changes a contact.
-inline void read_places(State& state, const Scene& scene, const std::string& path) {
+/// Grains at rest at the places of a file, lines "x y z" [m]. Each second one is of the other material where there
+/// are two, each third one is smaller where sizes differ.
+inline void read_places(State& state, const Scene& scene, const std::string& path, Grains grains) {
   std::ifstream file(path);
   std::vector<Vec3> places;
   if (!file) throw std::runtime_error("cannot read " + path);
   for (Vec3 x; file >> x.x >> x.y >> x.z;) places.push_back(x);
-  const bool two_kinds = scene.materials.size() > 2;
   Particles& p = state.particles;
   p.resize(static_cast<Index>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i) {
     p.position.set(i, places[i]);
     p.velocity.set(i, {});
     p.angular_velocity.set(i, {});
-    p.radius[i] = 0.5 * column_diameter * (two_kinds && i % 3 == 0 ? 1 - 1e-5 : 1);
-    p.material[i] = two_kinds && i % 2 == 0 ? 2 : 0;
+    p.radius[i] = 0.5 * column_diameter * (grains != Grains::alike && i % 3 == 0 ? 1 - 1e-5 : 1);
+    p.material[i] = grains == Grains::kinds && i % 2 == 0 ? 2 : 0;
     p.id[i] = static_cast<std::int32_t>(i);
   }
   complete_grains(p, scene.materials, column_diameter);
@@ -98,14 +102,14 @@ inline void write_places(const State& state, const std::string& path) {
 }
 
 /// The column before its first step: at the places of the file `start`, or filled at random where that is empty.
-inline State column_state(const Scene& scene, const std::string& start) {
+inline State column_state(const Scene& scene, const std::string& start, Grains grains = Grains::alike) {
   State state;
   if (scene.domain.order > 1) state.symmetry = Symmetry::rotation(scene.domain.order);
   state.vessel = Vessel(scene);
   if (start.empty())
     fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
   else
-    read_places(state, scene, start);
+    read_places(state, scene, start, grains);
   describe_grains(state);
   return state;
 }

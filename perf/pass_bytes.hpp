@@ -20,7 +20,7 @@ static_assert(sizeof(Index) == sizeof(std::int32_t), "indices and other whole nu
 /// guests of tiles: what is seen of them, and their sum written.
 inline double contact_bytes(const State& state, const Reactions& reactions, Friction friction) {
   const double row = 3 * index_bytes + (friction == Friction::none ? 0 : 4 * vector_bytes);
-  const double sums = static_cast<double>(reactions.sums.size()) / Reactions::sum_size;
+  const double sums = static_cast<double>(reactions.count());
   return state.contacts.rows() * row + sums * (seen_bytes + sum_bytes);
 }
 

@@ -41,13 +41,13 @@ per_particle_step() {
   awk -v a="$short" -v b="$long" -v n=$((windows * (more - fewer) * grains)) 'BEGIN { printf "%.1f\n", (b - a) / n }'
 }
 
-# arithmetic SYMBOLS: packed and scalar instructions on doubles in the functions whose names match.
+# arithmetic SYMBOLS: packed and scalar instructions on doubles and floats in the functions whose names match.
 arithmetic() {
   awk -v symbols="$1" '
     /^[0-9a-f]+ <.*>:$/ { inside = $0 ~ symbols; functions += inside; next }
     !inside { next }
-    /\tv(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)(132|213|231))pd .*%ymm/ { ++packed }
-    /\tv(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)(132|213|231))sd / { ++scalar }
+    /\tv(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)(132|213|231))p[ds] .*%ymm/ { ++packed }
+    /\tv(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)(132|213|231))s[ds] / { ++scalar }
     END { print functions + 0, packed + 0, scalar + 0 }' "$folder/code.txt"
 }
 
@@ -55,7 +55,7 @@ arithmetic() {
 check_packed() {
   local functions packed scalar
   read -r functions packed scalar < <(arithmetic "$3")
-  echo "$1: $packed packed and $scalar scalar instructions on doubles, in $functions functions"
+  echo "$1: $packed packed and $scalar scalar arithmetic instructions, in $functions functions"
   [ "$functions" -gt 0 ] || { fail "$1: no such function any more; name the new one in perf/smoke.sh"; return; }
   awk -v p="$packed" -v s="$scalar" -v least="$2" 'BEGIN { exit !(p > 0 && p >= least * s) }' ||
     fail "$1: not vectorised: $packed packed against $scalar scalar instructions (least ratio $2)"
@@ -65,11 +65,15 @@ check_packed() {
 check_loops() {
   local law='wedge::MindlinDeresiewicz' rolling='\\(wedge::Friction\\)2' no_axis='\\(wedge::AxisAction\\)0'
   objdump -d --no-show-raw-insn -C "$bench" >"$folder/code.txt"
-  check_packed "contacts" 5 "<(void )?wedge::(TilePass<$law, $rolling, true, wedge::UniformMix|respond<$law, $rolling, true, wedge::UniformMix|approach<$rolling, wedge::UniformMix<$law>)"
-  check_packed "sums of contacts" 5 "<(void )?wedge::add_to_sums<true>"
-  check_packed "walls" 5 "<wedge::WallPass<$law, $rolling>::respond"
-  # Each operation stands there twice: the last grains of a block are moved one by one.
-  check_packed "grains moved" 0.6 "<wedge::MovePass<[^,]*, $rolling, $no_axis, wedge::UniformBodies>::move"
+  local number mix
+  for number in double float; do
+    mix="wedge::UniformMix<$law, $number>"
+    check_packed "contacts, $number" 5 "<(void )?wedge::(TilePass<$law, $rolling, true, $mix|respond<$law, $rolling, true, $mix|approach<$rolling, $mix)"
+    check_packed "sums of contacts, $number" 5 "<(void )?wedge::add_to_sums<true, $number>"
+    check_packed "walls, $number" 5 "<wedge::WallPass<$law, $rolling, $number>::respond"
+    # Each operation stands there twice: the last grains of a block are moved one by one.
+    check_packed "grains moved, $number" 0.6 "<wedge::MovePass<[^,]*, $rolling, $no_axis, $number, wedge::UniformBodies>::move"
+  done
 }
 
 # record_of NAME: what is recorded under this name.
@@ -99,31 +103,39 @@ CXX=$(command -v g++) configure "$folder" -DCMAKE_BUILD_TYPE=Release -DWEDGE_NAT
 cmake --build "$folder" -j 1 --target bench_step >"$folder/build.log" ||  # one job: ctest runs others beside it
   { tail -n 40 "$folder/build.log" >&2; exit 1; }
 
-signature=$("$bench" --signature | awk '/^signature/ { print $2 }')
-with_two=$("$bench" --signature --threads 2 | awk '/^signature/ { print $2 }')
-echo "signature $signature"
-[ -n "$signature" ] && [ "$signature" = "$with_two" ] || fail "signature $signature with one thread, $with_two with two"
+# signature_of PRECISION THREADS
+signature_of() { "$bench" --signature --precision "$1" --threads "$2" | awk '/^signature/ { print $2 }'; }
+signature=$(signature_of double 1) signature_mixed=$(signature_of mixed 1)
+echo "signature $signature, mixed precision $signature_mixed"
+[ -n "$signature" ] && [ "$signature" = "$(signature_of double 2)" ] || fail "signature $signature is another with two threads"
+[ -n "$signature_mixed" ] && [ "$signature_mixed" = "$(signature_of mixed 2)" ] ||
+  fail "signature $signature_mixed, of mixed precision, is another with two threads"
 check_loops
 "$bench" --particles $grains --settle 0.3 --steps 1 --write "$folder/settled.txt" >/dev/null
 settled=$(per_particle_step --start "$folder/settled.txt" --settle 0.002)
+mixed=$(per_particle_step --start "$folder/settled.txt" --settle 0.002 --precision mixed)
 falling=$(per_particle_step --settle 0.005)
-echo "instructions per particle-step: $settled in a settled bed, $falling in a falling one, where lists are made"
+echo "instructions per particle-step: $settled in a settled bed, $mixed in mixed precision, $falling in a falling bed, where lists are made"
 
 if [ "$mode" = --record ]; then
   [ $failures -eq 0 ] || { echo "error: nothing recorded" >&2; exit 1; }
   {
     echo "# Written by perf/smoke.sh --record; compared by perf/smoke.sh where the toolchain is this one."
-    echo "# settled, falling: instructions per particle-step of $grains grains, built for x86-64-v3."
-    printf '%s\n' "toolchain $toolchain" "settled $settled" "falling $falling" "signature $signature"
+    echo "# settled, mixed, falling: instructions per particle-step of $grains grains, built for x86-64-v3."
+    printf '%s\n' "toolchain $toolchain" "settled $settled" "mixed $mixed" "falling $falling" "signature $signature" \
+      "signature_mixed $signature_mixed"
   } >"$recorded"
   echo "recorded in $recorded"
 elif [ "$toolchain" != "$(record_of toolchain)" ]; then
   echo "counts and signature NOT COMPARED: recorded with $(record_of toolchain), this is $toolchain"
 else
   compare_count settled "$settled"
+  compare_count mixed "$mixed"
   compare_count falling "$falling"
-  [ "$signature" = "$(record_of signature)" ] ||
-    fail "signature $signature, recorded is $(record_of signature): a commit that changes results must record the new one by bash perf/smoke.sh --record and say 'Signature: $signature' in its message"
+  for name in signature signature_mixed; do
+    [ "${!name}" = "$(record_of $name)" ] ||
+      fail "$name ${!name}, recorded is $(record_of $name): a commit that changes results must record the new one by bash perf/smoke.sh --record and say 'Signature: ${!name}' in its message"
+  done
 fi
 [ $failures -eq 0 ] || exit 1
 echo "perf smoke passed"

@@ -76,13 +76,12 @@ inline State sample_state(Index grains = 5) {
   s.contacts.first = {0, 0, 1};
   s.contacts.second = {1, 2, grains + 1};
   s.contacts.turn = {0, 0, -1};
-  s.contacts.normal.set(0, {0.6, 0, 0.8});
-  s.contacts.normal.set(2, {0, -0.8, 0.6});
   s.contacts.row_begin.assign(static_cast<std::size_t>(grains) + 1, 3);
   s.contacts.row_begin[0] = 0;
   s.contacts.row_begin[1] = 2;
-  for (Seen& seen : s.particles.seen)
-    seen = {{next(), next(), next()}, {next(), next(), next()}, next(), next(), {next(), next(), next()}, next()};
+  for (std::size_t i = 0; i < slots; ++i)
+    s.particles.seen.set(
+        i, {{next(), next(), next()}, next(), {next(), next(), next()}, next(), {next(), next(), next()}, next()});
   // Places and sizes that make of the rows a contact, a gap and a contact.
   const auto copy = static_cast<std::size_t>(grains) + 1;
   const auto put = [&](std::size_t i, Vec3 x, double radius) {

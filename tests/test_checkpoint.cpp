@@ -44,7 +44,9 @@ std::string bytes_of(const State& s) {
   append_bytes(bytes, s.images.owner);
   append_bytes(bytes, s.images.turn);
   append_bytes(bytes, s.contacts.row_begin);
-  append_bytes(bytes, s.particles.seen);
+  Array<Seen> seen;
+  for (std::size_t i = 0; i < s.particles.seen.size(); ++i) seen.push_back(s.particles.seen.get(i));
+  append_bytes(bytes, seen);
   ContactTable::for_each_field(s.contacts,
                                [&](const FieldInfo&, const auto& field) { append_bytes(bytes, field); });
   append_bytes(bytes, s.wall_contacts.grain);

@@ -99,7 +99,7 @@ TEST_CASE("a contact frame holds the touching rows with their forces taken apart
   const std::size_t rows[2] = {0, 2};
   for (std::size_t c = 0; c < 2; ++c) {
     const std::size_t k = rows[c];
-    const Vec3 force = forces.get(k), normal = state.contacts.normal.get(k);
+    const Vec3 force = forces.get(k), normal = row_normal(state, k);
     const auto first = static_cast<std::size_t>(state.contacts.first[k]);
     CHECK(frame.first_id[c] == state.particles.id[first]);
     CHECK(frame.second_id[c] == state.contacts.partner_id[k]);

@@ -57,8 +57,9 @@ RealRun real_run(const Scene& scene) {
   const ScratchFolder scratch;
   const RunFolder folder(scratch.path());
   Simulation run = Simulation::begin(scene, folder);
-  const TimeStep step(scene, run.state());
-  const double start = step.energies(run.state()).total();
+  State at_start = run.state();
+  const TimeStep step(scene, at_start);
+  const double start = step.energies(at_start).total();
   RealRun result;
   try {
     run.run({});

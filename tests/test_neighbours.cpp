@@ -139,7 +139,7 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
       const auto i = static_cast<std::size_t>(s.contacts.first[r]),
                  slot = static_cast<std::size_t>(s.contacts.second[r]);
       const std::size_t j = slot < n ? slot : static_cast<std::size_t>(s.images.owner[slot - n]);
-      const Vec3 f = e.contact_force(r), q = cross(s.contacts.normal.get(r), f);
+      const Vec3 f = e.contact_force(r), q = cross(row_normal(s, r), f);
       const double half = 0.5 * std::max(0.0, row_overlap(s, r));
       force[i] += f;
       torque[i] += (s.particles.radius[i] - half) * q;

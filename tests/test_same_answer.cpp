@@ -31,6 +31,7 @@ const std::vector<std::vector<std::string>> options = {
     {"contact.rolling_velocity=relative"},
     {"contact.rolling=elastic_plastic_spring"},
     {"domain.axis=images"},
+    {"run.precision=mixed"},
     {"domain.axis=pin"},
     {"domain.axis=line"},
     {"domain.axis=hollow", "domain.inner_radius=0.006"},

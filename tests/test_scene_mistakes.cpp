@@ -81,7 +81,6 @@ TEST_CASE("options that are known but not built are refused by name", "[scene]")
     CHECK(complaint(sound, {override}) == "--set " + override + ": error: " + says);
   };
   refused("domain.axis=core", "axis 'core' is known but not built yet; use clamp, images, pin, line or hollow");
-  refused("run.precision=mixed", "precision 'mixed' is known but not built yet; use double");
 }
 
 TEST_CASE("what cannot be is refused", "[scene]") {

@@ -19,7 +19,7 @@ namespace {
 void write_with_head(const std::string& path, const std::string& content) {
   std::string head(512, '\0');
   const auto hash = fnv1a(fnv_start, reinterpret_cast<const unsigned char*>(content.data()), content.size());
-  std::snprintf(head.data(), head.size(), "wedge checkpoint 3\nbytes %020llu\nfnv1a64 %016llx\n",
+  std::snprintf(head.data(), head.size(), "wedge checkpoint 4\nbytes %020llu\nfnv1a64 %016llx\n",
                 static_cast<unsigned long long>(content.size()), static_cast<unsigned long long>(hash));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << head << content;
 }
