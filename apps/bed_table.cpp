@@ -88,11 +88,9 @@ double coordination_number(const State& state, const Scene& scene) {
   double ends = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(c.rows()); ++k) {
     if (!(row_overlap(state, k) > 0)) continue;
-    const Index image = c.second[k] - state.particles.count();
-    const bool own_copy = image >= 0 && state.images.owner[static_cast<std::size_t>(image)] == c.first[k];
     const auto first = static_cast<std::size_t>(c.first[k]), second = static_cast<std::size_t>(c.second[k]);
     if (z[first] >= low) ends += 1;
-    if (z[second] >= low && !(own_copy && 2 * c.turn[k] == state.symmetry.order())) ends += 1;
+    if (z[second] >= low && !row_is_shared(state, k)) ends += 1;
   }
   return ends / grains;
 }

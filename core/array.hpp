@@ -50,4 +50,16 @@ struct AlignedAllocator {
 template <class T>
 using Array = std::vector<T, AlignedAllocator<T>>;
 
+/// Resizes without keeping what was there: the old numbers are gone before there are new ones. Makes room for
+/// growth, and gives back memory that a fuller time needed.
+template <class T>
+void resize_anew(Array<T>& array, std::size_t n) {
+  const std::size_t room = n + n / 16 + 64;
+  if (n > array.capacity() || array.capacity() > 2 * room) {
+    Array<T>().swap(array);
+    array.reserve(room);
+  }
+  array.resize(n);
+}
+
 }  // namespace wedge

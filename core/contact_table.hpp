@@ -9,14 +9,12 @@ namespace wedge {
 
 /// Half list of near pairs. Row k is the pair of grain first[k] and slot second[k] (a grain or an image). The grain
 /// with the smaller id is `first`, so a pair is stored once, seam pairs included, and a history never changes
-/// sides. A row's identity is (id of first, partner_id, turn); `history` is in the frame of `first`.
-/// Rows of one grain are consecutive: those of grain i are row_begin[i] .. row_begin[i+1]-1.
+/// sides. A row's identity is (id of first, id of the partner, turn), see row_partner in state.hpp; `history` is in
+/// the frame of `first`. Rows of one grain are consecutive: those of grain i are row_begin[i] .. row_begin[i+1]-1.
 struct ContactTable {
   Array<Index> row_begin;  // count()+1 entries
   Array<Index> first, second;
-  Array<std::int32_t> partner_id;  // id of the grain that `second` is or copies
-  Array<std::int32_t> turn;        // at which the partner is seen from `first`
-  Vec3Array history;               // m, tangential displacement (see kernels/README.md for its half-step part)
+  Vec3Array history;  // m, tangential displacement (see kernels/README.md for its half-step part)
 
   // Kept only where rows have rolling couples (rolling_velocity `relative`, elastic_plastic_spring).
   Vec3Array couple;            // N m, on `first`; the other grain feels its negative. Written by each force step
@@ -30,8 +28,6 @@ struct ContactTable {
   static void for_each_field(Self& c, Visit&& visit) {
     visit(FieldInfo{"first", "", "slot of the grain with the smaller id"}, c.first);
     visit(FieldInfo{"second", "", "slot of the other grain or of its image"}, c.second);
-    visit(FieldInfo{"partner_id", "", "id of the other grain"}, c.partner_id);
-    visit(FieldInfo{"turn", "", "turn at which the other grain is seen"}, c.turn);
     visit(FieldInfo{"history_x", "m", "tangential displacement"}, c.history.x);
     visit(FieldInfo{"history_y", "m", "tangential displacement"}, c.history.y);
     visit(FieldInfo{"history_z", "m", "tangential displacement"}, c.history.z);

@@ -73,6 +73,22 @@ struct State {
   std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
 };
 
+/// The grain that the second of a row is or copies, and the turn at which the first sees it (0: in the domain).
+struct Partner {
+  Index grain;
+  std::int32_t turn;
+};
+inline Partner row_partner(const State& state, std::size_t row) {
+  const Index second = state.contacts.second[row], image = second - state.particles.count();
+  if (image < 0) return {second, 0};
+  return {state.images.owner[static_cast<std::size_t>(image)], state.images.turn[static_cast<std::size_t>(image)]};
+}
+/// Whether the row is of a grain and its own copy half a turn away: one contact, seen from both sides.
+inline bool row_is_shared(const State& state, std::size_t row) {
+  const Partner partner = row_partner(state, row);
+  return partner.grain == state.contacts.first[row] && 2 * partner.turn == state.symmetry.order();
+}
+
 /// Way from the first grain of a row to the second [m], at the places where they are now.
 inline Vec3 row_way(const State& state, std::size_t row) {
   const Vec3Array& x = state.particles.position;

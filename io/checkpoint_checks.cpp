@@ -57,14 +57,12 @@ bool images_fit(const State& s) {
 bool contacts_fit(const State& s) {
   const ContactTable& c = s.contacts;
   const std::size_t rows = c.first.size(), n = s.particles.id.size(), slots = n + s.images.owner.size();
-  const std::int64_t turn = largest_turn(s.symmetry);
   bool fit = true;
   ContactTable::for_each_field(c, [&](const FieldInfo&, const auto& field) { fit = fit && field.size() == rows; });
   ContactTable::for_each_couple_field(
       c, [&](const FieldInfo&, const auto& field) { fit = fit && (field.empty() || field.size() == rows); });
   if (!fit || !all_within(c.first, 0, static_cast<Index>(n)) || !all_within(c.second, 0, static_cast<Index>(slots)))
     return false;
-  if (!all_within(c.turn, -turn, turn + 1)) return false;
   if (c.row_begin.empty()) return rows == 0;
   if (!cuts(c.row_begin, n, rows)) return false;
   for (std::size_t i = 0; i < n; ++i)

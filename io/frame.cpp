@@ -147,8 +147,9 @@ ContactLine contact_line(const State& state, const Vec3Array& forces, std::size_
   const auto first = static_cast<std::size_t>(rows.first[row]), second = static_cast<std::size_t>(rows.second[row]);
   ContactLine c{};
   c.first_id = state.particles.id[first];
-  c.second_id = rows.partner_id[row];
-  c.turn = rows.turn[row];
+  const Partner partner = row_partner(state, row);
+  c.second_id = state.particles.id[static_cast<std::size_t>(partner.grain)];
+  c.turn = partner.turn;
   c.first_position = state.particles.position.get(first);
   c.second_position = state.particles.position.get(second);
   c.normal = row_normal(state, row);

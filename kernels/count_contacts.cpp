@@ -13,14 +13,14 @@ void count_contacts(State& state) {
   const Particles& p = state.particles;
   const ImageMap& images = state.images;
   const WallContactTable& w = state.wall_contacts;
-  const Index n = p.count(), order = state.symmetry.order();
+  const Index n = p.count();
   c.contact_count.assign(at(n + images.count()), 0);
   // Row after row by one thread: cheap beside what the couples cost, and only a comparison needs it.
   for (std::size_t k = 0; k < c.first.size(); ++k) {
     if (!(row_overlap(state, k) > 0)) continue;
-    const Index i = c.first[k], j = c.second[k] < n ? c.second[k] : images.owner[at(c.second[k] - n)];
+    const Index i = c.first[k], j = row_partner(state, k).grain;
     ++c.contact_count[at(i)];
-    if (i != j || 2 * c.turn[k] != order) ++c.contact_count[at(j)];  // half a turn away it is the same contact
+    if (!row_is_shared(state, k)) ++c.contact_count[at(j)];  // half a turn away it is the same contact
   }
   for (std::size_t g = 0; g < w.grain.size(); ++g) {
     const std::size_t i = at(w.grain[g]);

@@ -291,7 +291,7 @@ public:
   }
 
 private:
-  static constexpr Index fetched_ahead = 96;  // rows
+  static constexpr Index fetched_ahead = 96, histories_ahead = 320;  // rows
 
   static StoredVectors at(Vec3Array& v, Index row) {
     if (v.size() == 0) return {};
@@ -301,6 +301,7 @@ private:
   void evaluate_slab(Index from, Index rows, const StoredSlab& stored) {
     constexpr bool spinning = friction != Friction::none;
     const Index *first = c_.first.data() + from, *second = c_.second.data() + from;
+    if constexpr (spinning) fetch(c_.history, from + histories_ahead);
     const Index soon = std::min(from + fetched_ahead, c_.rows() - rows);
     collect<Mix::alike, spinning>(grains_, {first, second, c_.second.data() + soon, rows}, seen_);
     for (Index row = rows; row < filled<Number>(rows); ++row) part_two_grains(row);
@@ -313,6 +314,13 @@ private:
                                         losses_);
     add_to_sums<Mix::alike>(outcome_, first, reactions_.target.data() + from, rows,
                             reactions_.template sum<Number>(0));
+  }
+  /// Asks for a slab of stored vectors that comes soon: there are more arrays than the processor follows by itself.
+  static void fetch(const Vec3Array& stored, Index from) {
+    const auto end = std::min(static_cast<std::size_t>(from + slab_size), stored.size());
+    for (auto row = static_cast<std::size_t>(from); row < end; row += cache_line / sizeof(double))
+      for (const Array<double>* component : {&stored.x, &stored.y, &stored.z})
+        __builtin_prefetch(component->data() + row, 1);
   }
   /// Lanes without a row hold grains that do not touch, so that they add to no sum.
   void part_two_grains(Index row) {

@@ -14,17 +14,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Resizes without keeping what was there; makes room for growth, gives back memory that a denser time needed.
-template <class T>
-void resize_with_room(Array<T>& array, Index n) {
-  const std::size_t room = at(n + n / 16 + 64);
-  if (at(n) > array.capacity() || array.capacity() > 2 * room) {
-    Array<T>().swap(array);
-    array.reserve(room);
-  }
-  array.resize(at(n));
-}
-
 /// What was found for the grains of one block, before rows have their final place.
 struct Found {
   std::vector<Index> second;
@@ -116,7 +105,7 @@ private:
 void list_places(const Particles& p, NeighbourScratch& s) {
   const Index n = p.count();
   for (Array<double>* field : {&s.places.x, &s.places.y, &s.places.z, &s.reach})
-    resize_with_room(*field, n + pack_size);
+    resize_anew(*field, at(n + pack_size));
   for_each(n, [&](Index i) {
     s.places.set(at(i), p.position.get(at(i)));
     s.reach[at(i)] = p.radius[at(i)] + p.list_margin[at(i)];
@@ -141,41 +130,6 @@ void bin_images(const State& state, NeighbourScratch& s) {
   s.order.assign(s.image_begin.begin(), s.image_begin.end() - 1);
   s.image_order.resize(at(m));
   for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
-}
-
-/// Keeps identity and history of the rows that store something: all that the next list can want of this
-/// one.
-void set_aside(const ContactTable& c, NeighbourScratch& s) {
-  const auto grains = static_cast<Index>(c.row_begin.size()) - 1;
-  const bool moments = c.rolling_moment.size() == at(c.rows());
-  const auto some = [](Vec3 v) { return v.x != 0 || v.y != 0 || v.z != 0; };
-  const auto stores = [&](std::size_t k) {
-    return some(c.history.get(k)) || (moments && some(c.rolling_moment.get(k)));
-  };
-  s.old_row_begin.assign(at(std::max(grains, 0)) + 1, 0);
-  for_each(grains, [&](Index i) {
-    Index kept = 0;
-    for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) kept += stores(k);
-    s.old_row_begin[at(i) + 1] = kept;
-  });
-  std::partial_sum(s.old_row_begin.begin(), s.old_row_begin.end(), s.old_row_begin.begin());
-  const Index rows = s.old_row_begin.back();
-  for (Array<double>* field : {&s.old_history.x, &s.old_history.y, &s.old_history.z})
-    resize_with_room(*field, rows);
-  s.old_rolling_moment.resize(moments ? at(rows) : 0);
-  resize_with_room(s.old_partner, rows);
-  resize_with_room(s.old_turn, rows);
-  for_each(grains, [&](Index i) {
-    std::size_t to = at(s.old_row_begin[at(i)]);
-    for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) {
-      if (!stores(k)) continue;
-      s.old_partner[to] = c.partner_id[k];
-      s.old_turn[to] = c.turn[k];
-      s.old_history.set(to, c.history.get(k));
-      if (moments) s.old_rolling_moment.set(to, c.rolling_moment.get(k));
-      ++to;
-    }
-  });
 }
 
 void report_overlap(const State& state, Index i, Index slot) {
@@ -206,21 +160,17 @@ Index old_row(const NeighbourScratch& s, const Symmetry& symmetry, Index old_fir
 void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, const Index* seconds, Index count) {
   const Particles& p = state.particles;
   ContactTable& c = state.contacts;
-  const Index n = p.count();
   const bool has_old = s.old_row_begin.back() > 0, had_moments = s.old_rolling_moment.size() > 0;
   for (Index m = 0; m < count; ++m) {
     const std::size_t k = at(begin + m);
     const Index slot = seconds[m];
-    const bool image = slot >= n;
-    const Index owner = image ? state.images.owner[at(slot - n)] : slot;
     c.first[k] = i;
     c.second[k] = slot;
-    c.partner_id[k] = p.id[at(owner)];
-    c.turn[k] = image ? state.images.turn[at(slot - n)] : 0;
     Vec3 history, moment;
     if (has_old) {
-      const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], c.partner_id[k], c.turn[k], s.wrap[at(i)],
-                                s.wrap[at(owner)]);
+      const Partner partner = row_partner(state, k);
+      const Index old = old_row(s, state.symmetry, s.old_slot[at(i)], p.id[at(partner.grain)], partner.turn,
+                                s.wrap[at(i)], s.wrap[at(partner.grain)]);
       if (old >= 0) {
         history = state.symmetry.turn_vector(s.old_history.get(at(old)), s.wrap[at(i)]);
         if (had_moments) moment = state.symmetry.turn_vector(s.old_rolling_moment.get(at(old)), s.wrap[at(i)]);
@@ -233,12 +183,45 @@ void fill_rows(State& state, const NeighbourScratch& s, Index i, Index begin, co
 
 }  // namespace
 
+void set_contacts_aside(const State& state, NeighbourScratch& s) {
+  const ContactTable& c = state.contacts;
+  const auto grains = static_cast<Index>(c.row_begin.size()) - 1;
+  const bool moments = c.rolling_moment.size() == at(c.rows());
+  const auto some = [](Vec3 v) { return v.x != 0 || v.y != 0 || v.z != 0; };
+  const auto stores = [&](std::size_t k) {
+    return some(c.history.get(k)) || (moments && some(c.rolling_moment.get(k)));
+  };
+  s.old_row_begin.assign(at(std::max(grains, 0)) + 1, 0);
+  for_each(grains, [&](Index i) {
+    Index kept = 0;
+    for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) kept += stores(k);
+    s.old_row_begin[at(i) + 1] = kept;
+  });
+  std::partial_sum(s.old_row_begin.begin(), s.old_row_begin.end(), s.old_row_begin.begin());
+  const Index rows = s.old_row_begin.back();
+  for (Array<double>* field : {&s.old_history.x, &s.old_history.y, &s.old_history.z}) resize_anew(*field, at(rows));
+  s.old_rolling_moment.resize(moments ? at(rows) : 0);
+  resize_anew(s.old_partner, at(rows));
+  resize_anew(s.old_turn, at(rows));
+  for_each(grains, [&](Index i) {
+    std::size_t to = at(s.old_row_begin[at(i)]);
+    for (std::size_t k = at(c.row_begin[at(i)]); k < at(c.row_begin[at(i) + 1]); ++k) {
+      if (!stores(k)) continue;
+      const Partner partner = row_partner(state, k);
+      s.old_partner[to] = state.particles.id[at(partner.grain)];
+      s.old_turn[to] = partner.turn;
+      s.old_history.set(to, c.history.get(k));
+      if (moments) s.old_rolling_moment.set(to, c.rolling_moment.get(k));
+      ++to;
+    }
+  });
+}
+
 void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rules) {
   const Index n = state.particles.count();
   bin_images(state, scratch);
   list_places(state.particles, scratch);
   ContactTable& c = state.contacts;
-  set_aside(c, scratch);
 
   std::vector<Found> found(at(block_count(n)));
   const PairSearch search(state, scratch, rules.axis);
@@ -249,7 +232,7 @@ void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rul
     for (Index i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) search.around(i, f);
   });
 
-  resize_with_room(c.row_begin, n + 1);
+  resize_anew(c.row_begin, at(n + 1));
   Index rows = 0;
   for (Index b = 0; b < block_count(n); ++b) {
     const Found& f = found[at(b)];
@@ -260,9 +243,9 @@ void find_contacts(State& state, NeighbourScratch& scratch, const PairRules& rul
     }
   }
   c.row_begin[at(n)] = rows;
-  ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, rows); });
+  ContactTable::for_each_field(c, [&](const FieldInfo&, auto& field) { resize_anew(field, at(rows)); });
   const Index couples = rules.couples ? rows : 0;  // none of a bed that was taken over from a run with couples
-  ContactTable::for_each_couple_field(c, [&](const FieldInfo&, auto& field) { resize_with_room(field, couples); });
+  ContactTable::for_each_couple_field(c, [&](const FieldInfo&, auto& field) { resize_anew(field, at(couples)); });
   for_each_block(block_count(n), [&](Index b) {
     const Found& f = found[at(b)];
     const Index* next = f.second.data();

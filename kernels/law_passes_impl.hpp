@@ -37,14 +37,11 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
     const double depth = row_overlap(state, r);
     if (!(depth > 0)) continue;
     const auto i = static_cast<std::size_t>(c.first[r]), j = static_cast<std::size_t>(c.second[r]);
-    const Index n = p.count();
-    const Index owner = c.second[r] < n ? c.second[r] : state.images.owner[j - static_cast<std::size_t>(n)];
-    if (counts && !counts(c.first[r]) && !counts(owner)) continue;
+    if (counts && !counts(c.first[r]) && !counts(row_partner(state, r).grain)) continue;
     const double radius = p.radius[i] * p.radius[j] / (p.radius[i] + p.radius[j]);
     const double mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
     const auto& coefficients = table(p.material[i], p.material[j]);
-    const bool shared = owner == c.first[r] && 2 * c.turn[r] == state.symmetry.order();
-    const double part = shared ? 0.5 : 1.0;
+    const double part = row_is_shared(state, r) ? 0.5 : 1.0;
     sum.normal += part * Law::normal_energy(coefficients, radius, mass, depth);
     sum.tangential += part * Law::tangential_energy(coefficients, radius, mass, depth, norm(c.history.get(r)));
   }

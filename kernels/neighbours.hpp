@@ -38,6 +38,10 @@ struct PairRules {
 /// is the position.
 void choose_margins(State& state, double smallest, double dt);
 
+/// Keeps histories of the rows that store something, by who touches whom: all that the next list can want of this
+/// one. Pre: grains and images stand where the list was made for; it comes before what follows here.
+void set_contacts_aside(const State& state, NeighbourScratch& scratch);
+
 /// Turns grains that left through a face home: position, velocities, forces. Post: scratch.wrap holds their turns.
 void wrap(State& state, NeighbourScratch& scratch);
 

@@ -23,7 +23,7 @@ bool has_reaction(const State& state, AxisRule axis, std::size_t k) {
   if (image < 0) return true;
   const std::size_t i = at(c.first[k]);
   if (axis == AxisRule::pin && on_axis(p.position.x[i], p.position.y[i], p.radius[i])) return false;
-  return !(2 * c.turn[k] == state.symmetry.order() && state.images.owner[at(image)] == c.first[k]);
+  return !row_is_shared(state, k);
 }
 
 /// The guests of one tile: slots, ascending. Its first sum belongs to none of them: it takes what nobody feels.
@@ -65,8 +65,8 @@ void list_sources(const State& state, const std::vector<Guests>& guests, Reactio
     sources += count;
   }
   r.source_begin.push_back(sources);
-  r.source.resize(at(sources));
-  r.source_turn.resize(at(sources));
+  resize_anew(r.source, at(sources));
+  resize_anew(r.source_turn, at(sources));
   for (std::size_t tile = 0; tile < guests.size(); ++tile) {
     for (const Index slot : guests[tile].slots) {
       const std::size_t s = at(place[at(owner_of(slot))]++);
@@ -106,7 +106,7 @@ void map_reactions(const State& state, AxisRule axis, Reactions& r) {
   r.guests_begin.assign(at(tiles) + 1, n);
   for (std::size_t tile = 0; tile < at(tiles); ++tile)
     r.guests_begin[tile + 1] = r.guests_begin[tile] + 1 + static_cast<Index>(guests[tile].slots.size());
-  r.target.resize(c.first.size());
+  resize_anew(r.target, c.first.size());
   for_each_block(tiles, [&](Index tile) {
     const Index begin = tile * tile_size, end = std::min(n, begin + tile_size);
     for (std::size_t k = at(c.row_begin[at(begin)]); k < at(c.row_begin[at(end)]); ++k) {
@@ -118,8 +118,8 @@ void map_reactions(const State& state, AxisRule axis, Reactions& r) {
   });
   const std::size_t numbers = Reactions::sum_size * at(r.count());
   const bool mixed = state.particles.seen.precision() == Precision::mixed;
-  r.double_sums.resize(mixed ? 0 : numbers);
-  r.single_sums.resize(mixed ? numbers : 0);
+  resize_anew(r.double_sums, mixed ? 0 : numbers);
+  resize_anew(r.single_sums, mixed ? numbers : 0);
   list_sources(state, guests, r);
   r.list = state.list_builds;
 }

@@ -105,6 +105,7 @@ void TimeStep::renew_list(State& state, double dt) {
     refresh_images(state);  // the energy of contacts is that of the places of now
     book_departures(state);
   }
+  set_contacts_aside(state, scratch_);
   wrap(state, scratch_);
   choose_margins(state, smallest_margin_, dt);
   sort_by_cell(state, scratch_);

@@ -149,6 +149,7 @@ void add_walls(const SettledColumn& c) {
 /// All passes that make a list, in the order of time_step.cpp. The bed is sorted already.
 void make_list(Bed& bed) {
   State& state = bed.state;
+  set_contacts_aside(state, bed.scratch);
   wrap(state, bed.scratch);
   choose_margins(state, 0.01 * state.mean_diameter, column_dt);
   sort_by_cell(state, bed.scratch);

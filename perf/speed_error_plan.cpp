@@ -13,7 +13,7 @@ namespace wedge::speed_error {
 namespace {
 
 // What [run] precision may be, the standard first. A new one needs no more than its name here.
-const std::vector<std::string> precisions{"double"};
+const std::vector<std::string> precisions{"double", "mixed"};
 
 Variant with(double Variant::*field, double value) {
   Variant v;
@@ -48,7 +48,7 @@ Plan::Plan(Size size) : size_(size) {
   Table sector{"sector", "Angle of a sector", sectors(), 0, quick ? 2 : 8};
   tables_ = {step, young, skin, sector};
   if (precisions.size() > 1) {
-    Table precision{"precision", "Precision", {}, 0, quick ? 2 : 4};
+    Table precision{"precision", "Precision", {}, 0, quick ? 2 : 8};
     for (const std::string& p : precisions) {
       precision.variants.emplace_back();
       precision.variants.back().precision = p;

@@ -75,7 +75,6 @@ inline State sample_state(Index grains = 5) {
                                [&](const FieldInfo&, auto& field) { fill_sample(field, next, start += 100); });
   s.contacts.first = {0, 0, 1};
   s.contacts.second = {1, 2, grains + 1};
-  s.contacts.turn = {0, 0, -1};
   s.contacts.row_begin.assign(static_cast<std::size_t>(grains) + 1, 3);
   s.contacts.row_begin[0] = 0;
   s.contacts.row_begin[1] = 2;

@@ -194,7 +194,7 @@ TEST_CASE("collisions in a sector keep what lies along the axis", "[conservation
       e.run(50);
       for (Index row = 0; row < e.state.contacts.rows(); ++row)
         seam_contacts += row_overlap(e.state, static_cast<std::size_t>(row)) > 0 &&
-                         e.state.contacts.turn[static_cast<std::size_t>(row)] != 0;
+                         row_partner(e.state, static_cast<std::size_t>(row)).turn != 0;
     }
     CHECK(seam_contacts > 0);
     const Motion after = motion_of(e.state);

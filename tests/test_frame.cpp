@@ -102,8 +102,8 @@ TEST_CASE("a contact frame holds the touching rows with their forces taken apart
     const Vec3 force = forces.get(k), normal = row_normal(state, k);
     const auto first = static_cast<std::size_t>(state.contacts.first[k]);
     CHECK(frame.first_id[c] == state.particles.id[first]);
-    CHECK(frame.second_id[c] == state.contacts.partner_id[k]);
-    CHECK(frame.turn[c] == state.contacts.turn[k]);
+    CHECK(frame.second_id[c] == state.particles.id[static_cast<std::size_t>(row_partner(state, k).grain)]);
+    CHECK(frame.turn[c] == row_partner(state, k).turn);
     CHECK(norm(frame.normal_force.get(c) + frame.tangential_force.get(c) - force) < 1e-15);
     CHECK(std::abs(dot(frame.tangential_force.get(c), normal)) < 1e-15);
     CHECK(norm(cross(frame.normal_force.get(c), normal)) < 1e-15);

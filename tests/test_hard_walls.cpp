@@ -191,7 +191,7 @@ std::set<std::int32_t> touching_grains(const State& state) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(c.rows()); ++k) {
     if (!(row_overlap(state, k) > 0)) continue;
     ids.insert(state.particles.id[static_cast<std::size_t>(c.first[k])]);
-    ids.insert(c.partner_id[k]);
+    ids.insert(state.particles.id[static_cast<std::size_t>(row_partner(state, k).grain)]);
   }
   return ids;
 }

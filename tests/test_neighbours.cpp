@@ -86,11 +86,10 @@ TEST_CASE("the neighbour list holds exactly the pairs of a search over all pairs
       const auto r = static_cast<std::size_t>(k);
       const auto first = static_cast<std::size_t>(s.contacts.first[r]),
                  second = static_cast<std::size_t>(s.contacts.second[r]);
-      CHECK(found.insert({p.id[first], s.contacts.partner_id[r], s.contacts.turn[r]}).second);  // once each
-      const bool image = second >= n;
-      const std::size_t owner = image ? static_cast<std::size_t>(s.images.owner[second - n]) : second;
-      CHECK(p.id[owner] == s.contacts.partner_id[r]);
-      const Vec3 where = s.symmetry.turn_point(p.position.get(owner), s.contacts.turn[r]);
+      const auto [partner, turn] = row_partner(s, r);
+      const auto owner = static_cast<std::size_t>(partner);
+      CHECK(found.insert({p.id[first], p.id[owner], turn}).second);  // once each
+      const Vec3 where = s.symmetry.turn_point(p.position.get(owner), turn);
       CHECK(norm(where - p.position.get(second)) < 1e-15);
     }
     CHECK(found == expected);
@@ -136,16 +135,15 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
     const auto n = static_cast<std::size_t>(s.particles.count());
     std::vector<Vec3> force(n), torque(n);
     for (std::size_t r = 0; r < static_cast<std::size_t>(s.contacts.rows()); ++r) {
-      const auto i = static_cast<std::size_t>(s.contacts.first[r]),
-                 slot = static_cast<std::size_t>(s.contacts.second[r]);
-      const std::size_t j = slot < n ? slot : static_cast<std::size_t>(s.images.owner[slot - n]);
+      const auto [partner, turn] = row_partner(s, r);
+      const auto i = static_cast<std::size_t>(s.contacts.first[r]), j = static_cast<std::size_t>(partner);
       const Vec3 f = e.contact_force(r), q = cross(row_normal(s, r), f);
       const double half = 0.5 * std::max(0.0, row_overlap(s, r));
       force[i] += f;
       torque[i] += (s.particles.radius[i] - half) * q;
-      if (i == j && 2 * s.contacts.turn[r] == c.order) continue;
-      force[j] -= s.symmetry.turn_vector(f, -s.contacts.turn[r]);
-      torque[j] += (s.particles.radius[j] - half) * s.symmetry.turn_vector(q, -s.contacts.turn[r]);
+      if (i == j && 2 * turn == c.order) continue;
+      force[j] -= s.symmetry.turn_vector(f, -turn);
+      torque[j] += (s.particles.radius[j] - half) * s.symmetry.turn_vector(q, -turn);
     }
     double scale = 0, worst = 0;
     for (std::size_t i = 0; i < n; ++i) {

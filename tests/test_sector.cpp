@@ -137,14 +137,11 @@ constexpr double pot_radius = 6 * d;
 /// half a turn away, of which there are n / 2.
 int contacts_in_the_whole(const State& slice, int n) {
   const ContactTable& c = slice.contacts;
-  const Index grains = slice.particles.count();
   int twice = 0;
   for (Index k = 0; k < c.rows(); ++k) {
     const auto r = static_cast<std::size_t>(k);
     if (!(row_overlap(slice, r) > 0)) continue;
-    const bool shared = c.second[r] >= grains && 2 * c.turn[r] == n &&
-                        slice.images.owner[static_cast<std::size_t>(c.second[r] - grains)] == c.first[r];
-    twice += shared ? n : 2 * n;
+    twice += row_is_shared(slice, r) ? n : 2 * n;
   }
   return twice / 2;
 }

@@ -53,7 +53,7 @@ double follow_indices(const State& s) {
     for (Index k = s.contacts.row_begin[i]; k < s.contacts.row_begin[i + 1]; ++k) {
       const auto row = static_cast<std::size_t>(k);
       sum += p.mass.at(i) + p.radius.at(static_cast<std::size_t>(s.contacts.second.at(row)));
-      sum += row_overlap(s, row) + s.contacts.history.x.at(row) + s.symmetry.residue(s.contacts.turn.at(row));
+      sum += row_overlap(s, row) + s.contacts.history.x.at(row) + s.symmetry.residue(row_partner(s, row).turn);
     }
   const WallContactTable& w = s.wall_contacts;
   for (std::size_t g = 0; g < w.grain.size(); ++g)
