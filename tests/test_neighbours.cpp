@@ -158,6 +158,78 @@ TEST_CASE("what a grain feels is the sum over all pairs, summed by brute force",
   }
 }
 
+namespace {
+
+/// Force on each grain of a frictionless scene by Hertz and its damping, from the places and velocities alone:
+/// every grain with every copy of every other, and with its own copies where they act, each pair from both sides.
+std::vector<Vec3> frictionless_forces(const Scene& scene, const Particles& p) {
+  const int order = scene.domain.order;
+  const auto n = static_cast<std::size_t>(p.count());
+  const auto turned = [&](Vec3 a, int k) -> Vec3 {
+    const long double angle = 2 * std::acos(-1.0L) * k / order;
+    const auto cosine = static_cast<double>(std::cos(angle)), sine = static_cast<double>(std::sin(angle));
+    return {cosine * a.x - sine * a.y, sine * a.x + cosine * a.y, a.z};
+  };
+  std::vector<Vec3> force(n);
+  for (int k = 0; k < order; ++k) {
+    const bool neighbour = k <= 1 || k == order - 1, every = meets_itself(scene.domain.axis);
+    if (!neighbour && !every) continue;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Vec3 x = turned(p.position.get(j), k), v = turned(p.seen[j].velocity, k);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (i == j && (k == 0 || !every)) continue;
+        const Vec3 d = x - p.position.get(i);
+        const double distance = norm(d), ri = p.radius[i], rj = p.radius[j], overlap = ri + rj - distance;
+        if (overlap <= 0) continue;
+        const Material &a = scene.materials[static_cast<std::size_t>(p.material[i])],
+                       &b = scene.materials[static_cast<std::size_t>(p.material[j])];
+        const double young = 1 / ((1 - a.poisson * a.poisson) / a.young + (1 - b.poisson * b.poisson) / b.young);
+        const double mi = 4.0 / 3.0 * pi * ri * ri * ri * a.density, mj = 4.0 / 3.0 * pi * rj * rj * rj * b.density;
+        const double stiffness = 2 * young * std::sqrt(ri * rj / (ri + rj) * overlap);  // df/d(overlap)
+        const double damping = 2 * scene.interactions(p.material[i], p.material[j]).damping_normal *
+                               std::sqrt(mi * mj / (mi + mj) * stiffness);
+        const Vec3 normal = (1 / distance) * d;
+        const double approach = dot(p.seen[i].velocity - v, normal);
+        force[i] -= (2.0 / 3.0 * stiffness * overlap + damping * approach) * normal;
+      }
+    }
+  }
+  return force;
+}
+
+}  // namespace
+
+TEST_CASE("without friction a grain feels what places and velocities of its partners and their copies say",
+          "[neighbours]") {
+  for (const Case& c :
+       {Case{DomainKind::full, 1, AxisRule::clamp}, Case{DomainKind::sector, 2, AxisRule::images},
+        Case{DomainKind::sector, 5, AxisRule::images}, Case{DomainKind::sector, 3, AxisRule::clamp}}) {
+    Scene scene = scene_of(c);
+    scene.materials = {{"light", 1500, 1e7, 0.3}, {"heavy", 3800, 3e7, 0.2}};
+    scene.interactions = PairTable<Interaction>(2);
+    scene.interactions(0, 0).damping_normal = 0.1;
+    scene.interactions(0, 1).damping_normal = 0.2;
+    scene.interactions(1, 1).damping_normal = 0.3;
+    // Three tiles, whose grains act on each other's and on images of each other's.
+    std::vector<Grain> grains = cloud(scene, 2 * tile_size + 500, 11, 0.06 * c.order);
+    for (std::size_t i = 0; i < grains.size(); ++i) grains[i].material = i % 3 == 0;
+    Experiment e(scene, grains, 2e-6);
+    const Particles& p = e.state.particles;
+    for (const int steps : {0, 50}) {  // forces at the start, and after new lists
+      e.run(steps);
+      const std::vector<Vec3> expected = frictionless_forces(scene, p);
+      double largest = 0, worst = 0;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        largest = std::max(largest, norm(expected[i]));
+        worst = std::max(worst, norm(expected[i] - p.force.get(i)));
+      }
+      CHECK(e.touching() > 500);
+      CHECK(worst / largest < 1e-13);  // a copy's place has round-off, and so has the overlap
+    }
+    CHECK(e.state.list_builds > 1);
+  }
+}
+
 TEST_CASE("a moving bed never misses a contact: every overlap is in the list at every step", "[neighbours]") {
   const Scene scene = scene_of({DomainKind::sector, 4, AxisRule::clamp});
   Experiment e(scene, cloud(scene, 200, 9), 2e-6);
