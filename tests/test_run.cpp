@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/commands.hpp"
+#include "apps/setup.hpp"
 #include "apps/simulation.hpp"
 #include "core/parallel.hpp"
 #include "core/require.hpp"
@@ -144,6 +145,35 @@ TEST_CASE("a run killed before its first step goes on as if never stopped", "[ru
   }
   REQUIRE(command_resume(killed) == exit_code::ok);
   check_same(outcome_of(scratch / "whole"), outcome_of(scratch / "killed"));
+}
+
+TEST_CASE("rows, frames, ends of stages and stops come in the first step at or after their time", "[run]") {
+  // However many steps are done at once between two looks; times in steps of 20 us.
+  const ScratchFolder scratch;
+  const auto in_steps = [](double steps) { return std::to_string(steps * 2e-5); };
+  RunArguments a = arguments_for(
+      scratch / "run", 1,
+      {"particles.count=60", "stage.settle.until=" + in_steps(551), "stage.discharge.at_most=" + in_steps(436),
+       "output.series=" + in_steps(68.5), "output.frames=" + in_steps(245.5),
+       "output.at=[" + in_steps(166.5) + ", " + in_steps(858.5) + "]"});
+  a.until = 251 * 2e-5;
+  REQUIRE(command_run(a) == exit_code::ok);
+  const RunFolder folder(a.folder);
+  const auto end = [&] { return Simulation::resume(read_scene(folder.resolved_scene(), {}), folder).state().step; };
+  CHECK(end() == 251);
+  a.until.reset();
+  REQUIRE(command_resume(a) == exit_code::ok);
+  CHECK(end() == 551 + 436);
+
+  std::vector<double> rows, frames;  // steps
+  for (const auto& row : rows_of(read_text_file(folder.series("energies")))) rows.push_back(row[1]);
+  CHECK(rows ==
+        std::vector<double>{0, 69, 137, 206, 274, 343, 411, 480, 548, 551, 617, 685, 754, 822, 891, 959, 987});
+  State state = make_domain(read_scene(folder.resolved_scene(), {}));
+  const std::string last = *newest_valid_checkpoint(folder.checkpoints());
+  for (const double t : RunMemory::from_text(read_checkpoint(last, state).run_state, last).frame_times)
+    frames.push_back(std::round(t / 2e-5));
+  CHECK(frames == std::vector<double>{0, 167, 246, 491, 551, 737, 859, 982, 987});
 }
 
 TEST_CASE("a wall that a stage adds into the bed stops the run", "[run]") {

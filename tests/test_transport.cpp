@@ -1,4 +1,5 @@
-// test_transport.cpp: the stored tangential displacement is carried along with its contact as with a rigid body.
+// test_transport.cpp: the stored displacement and the moment of a rolling spring are carried along with its contact
+// as with a rigid body.
 #include "core/random.hpp"
 #include "kernels/evaluate_contacts.hpp"
 #include "kernels/evaluate_walls.hpp"
@@ -25,17 +26,34 @@ Vec3 turned(Vec3 u, Vec3 axis, double angle) {
 /// Half of what the default law lets the displacement be: mu_s (2 - nu) / (2 (1 - nu)) dn.
 double half_limit(const Scene& s) { return 0.5 * s.interactions(0, 0).sliding * (1.7 / 1.4) * overlap; }
 
+/// The same of a rolling spring, whose limit is mu_r f_n.
+double half_limit_moment(const Scene& s, Vec3 load) { return 0.5 * s.interactions(0, 0).rolling * norm(load); }
+
+Scene stressed_scene(Friction friction) {
+  Scene s = plain_scene(1e7, 0.3, 3800, 0.6, 0.3);
+  if (friction == Friction::spring) {
+    s.contact.rolling = RollingModel::elastic_plastic_spring;
+    s.interactions(0, 0).rolling = 1e-4;
+  }
+  return s;
+}
+
 /// Two stressed grains turned by 90 degrees in `steps` steps as one rigid body, about `axis` through a third point,
-/// with exact positions, velocities and spins. Returns how far displacement and force end from where the body takes
-/// them, relative to their size.
+/// with exact positions, velocities and spins. Returns how far the displacement, or with a rolling spring its
+/// moment, ends from where the body takes it, relative to its size.
+template <Friction friction>
 double drift_of_pair(Vec3 axis, int steps) {
-  const Scene s = plain_scene(1e7, 0.3, 3800, 0.6, 0.3);
-  const Vec3 n = unit({2, 3, 6}), stress = half_limit(s) * unit(cross(n, {1, 0, 0})), about{0.01, -0.02, 0.005};
+  constexpr bool rolls = friction == Friction::spring;
+  const Scene s = stressed_scene(friction);
+  const Vec3 n = unit({2, 3, 6}), about{0.01, -0.02, 0.005};
   const Vec3 places[] = {{0, 0, 0}, (2.4 * R - overlap) * n};
   Experiment e(s, {{R, places[0], {}, {}}, {1.4 * R, places[1], {}, {}}}, 1e-6);
   REQUIRE(e.state.contacts.rows() == 1);
   REQUIRE(e.state.contacts.first[0] == static_cast<Index>(e.slot(0)));
-  e.state.contacts.history.set(0, stress);
+  Vec3Array& stored = rolls ? e.state.contacts.rolling_moment : e.state.contacts.history;
+  const Vec3 stress =
+      (rolls ? half_limit_moment(s, e.contact_force(0)) : half_limit(s)) * unit(cross(n, {1, 0, 0}));
+  stored.set(0, stress);
   const Material& m = s.materials[0];
   const Law::Coefficients coefficients[] = {Law::prepare(m, m, s.interactions(0, 0), s.contact)};
   Particles& p = e.state.particles;
@@ -53,29 +71,34 @@ double drift_of_pair(Vec3 axis, int steps) {
       seen.angular_velocity = rate * axis;
       p.seen.set(e.slot(id), seen);
     }
-    evaluate_contacts<Law, Friction::sliding, true>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
+    evaluate_contacts<Law, friction, true>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
     if (k == 0) before = reactions.force(e.state.contacts.first[0]);
   }
-  const double of_stress = norm(e.state.contacts.history.get(0) - turned(stress, axis, 0.5 * pi)) / norm(stress);
+  const double of_stress = norm(stored.get(0) - turned(stress, axis, 0.5 * pi)) / norm(stress);
   CHECK(norm(reactions.force(e.state.contacts.first[0]) - turned(before, axis, 0.5 * pi)) <
         2 * (of_stress + 1e-9) * norm(before));
   return of_stress;
 }
 
 /// The same for a grain on a plate that spin together about the plate's axis, which is the normal.
+template <Friction friction>
 double drift_on_plate(int steps) {
-  Scene s = plain_scene(1e7, 0.3, 3800, 0.6, 0.3);
+  constexpr bool rolls = friction == Friction::spring;
+  Scene s = stressed_scene(friction);
   add_wall(s, "plate", {{0, 0}, {0.1, 0}});
   const double rate = 100, dt = 0.5 * pi / rate / steps;
   s.walls[0].spin = rate;
-  const Vec3 place{0.03, 0.02, R - overlap}, axis{0, 0, 1}, stress = half_limit(s) * Vec3{0.6, 0.8, 0};
+  const Vec3 place{0.03, 0.02, R - overlap}, axis{0, 0, 1};
   Experiment e(s, {{R, place, {}, {}}}, 1e-6);
   REQUIRE(e.touching_walls() == 1);
   Particles& p = e.state.particles;
   WallContactTable& c = e.state.wall_contacts;
   const auto row =
       static_cast<std::size_t>(std::find(c.touching.begin(), c.touching.end(), 1) - c.touching.begin());
-  c.history.set(row, stress);
+  Vec3Array& stored = rolls ? c.rolling_moment : c.history;
+  const Vec3 stress =
+      (rolls ? half_limit_moment(s, {0, 0, c.force.get(row).z}) : half_limit(s)) * Vec3{0.6, 0.8, 0};
+  stored.set(row, stress);
   PairTable<Law::Coefficients> table(1);
   table(0, 0) = Law::prepare(s.materials[0], s.materials[0], s.interactions(0, 0), s.contact);
   const WallMix<Law> mix(table, e.state.vessel);
@@ -88,10 +111,10 @@ double drift_on_plate(int steps) {
     p.position.set(0, x);
     const Seen seen = p.seen.get(0);
     p.seen.set(0, {x, seen.radius, rate * cross(axis, x), seen.mass, rate * axis, seen.material});
-    evaluate_walls<Law, Friction::sliding, double>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
+    evaluate_walls<Law, friction, double>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
     if (k == 0) before = c.force.get(row);
   }
-  const double of_stress = norm(c.history.get(row) - turned(stress, axis, 0.5 * pi)) / norm(stress);
+  const double of_stress = norm(stored.get(row) - turned(stress, axis, 0.5 * pi)) / norm(stress);
   CHECK(norm(c.force.get(row) - turned(before, axis, 0.5 * pi)) < 2 * (of_stress + 1e-9) * norm(before));
   return of_stress;
 }
@@ -128,23 +151,43 @@ TEST_CASE("transport around an eighth of the sphere turns the displacement by it
   CHECK(norm(spin_about_normal(Vec3{0, 1, 0}, Vec3{1, 0, 0}, 1e-3) - turned({0, 1, 0}, {1, 0, 0}, 2e-3)) < 1e-9);
 }
 
-TEST_CASE("a stressed pair turned by 90 degrees as a rigid body takes its displacement and force along",
-          "[transport]") {
+namespace {
+
+template <Friction friction>
+void pair_takes_stress_along() {
   const Vec3 n = unit({2, 3, 6});
   // About an axis perpendicular to the normal: of third order, for the normal of before is found from the velocity.
   const Vec3 across = unit(cross(n, {0, 1, 0}));
-  CHECK(drift_of_pair(across, 100) / drift_of_pair(across, 200) == Approx(8).epsilon(0.02));
-  CHECK(drift_of_pair(across, 2000) < 1e-9);
+  CHECK(drift_of_pair<friction>(across, 100) / drift_of_pair<friction>(across, 200) == Approx(8).epsilon(0.02));
+  CHECK(drift_of_pair<friction>(across, 2000) < 1e-9);
   for (const Vec3 axis : {n, -n, unit({1, 2, -1})}) {  // about it: the mean spin turns the displacement
-    const double coarse = drift_of_pair(axis, 100), fine = drift_of_pair(axis, 200);
+    const double coarse = drift_of_pair<friction>(axis, 100), fine = drift_of_pair<friction>(axis, 200);
     CHECK(coarse > 1e-7);
     CHECK(coarse / fine == Approx(4).epsilon(0.02));
-    CHECK(drift_of_pair(axis, 10000) < 1e-5);
+    CHECK(drift_of_pair<friction>(axis, 10000) < 1e-5);
   }
 }
 
-TEST_CASE("a stressed grain that spins with its plate takes its displacement and force along", "[transport]") {
-  const double coarse = drift_on_plate(100), fine = drift_on_plate(200);
+template <Friction friction>
+void grain_on_plate_takes_stress_along() {
+  const double coarse = drift_on_plate<friction>(100), fine = drift_on_plate<friction>(200);
   CHECK(coarse / fine == Approx(4).epsilon(0.02));
-  CHECK(drift_on_plate(10000) < 1e-5);
+  CHECK(drift_on_plate<friction>(10000) < 1e-5);
+}
+
+}  // namespace
+
+TEST_CASE("a stressed pair turned by 90 degrees as a rigid body takes its displacement and force along",
+          "[transport]") {
+  pair_takes_stress_along<Friction::sliding>();
+}
+
+TEST_CASE("a stressed grain that spins with its plate takes its displacement and force along", "[transport]") {
+  grain_on_plate_takes_stress_along<Friction::sliding>();
+}
+
+TEST_CASE("a loaded rolling spring turned as a rigid body, of a pair or on a plate, takes its moment along",
+          "[transport]") {
+  pair_takes_stress_along<Friction::spring>();
+  grain_on_plate_takes_stress_along<Friction::spring>();
 }
