@@ -71,34 +71,39 @@ void triad(benchmark::State& bench, double bytes) {
 
 /// An operation on numbers of the nearest cache, each result added to one of several sums: the additions overlap
 /// with operations that take longer. `flops`: of the operation and the addition, for one number.
-template <class Operation>
+template <class Number, class Operation>
 void compute(benchmark::State& bench, int flops, Operation operation) {
-  constexpr Index count = 64 * WorkingSet::stride / pack_size;  // 4 kB in packs of eight
-  Array<double> numbers(static_cast<std::size_t>(count * pack_size));
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 1 + 1 / (3.0 + static_cast<double>(i));
-  Pack sum[WorkingSet::chains] = {};
+  using Real = PackOf<Number>;
+  constexpr Index size = lanes<Number>, count = 64 * WorkingSet::stride / pack_size;  // 4 kB in packs of eight
+  Array<Number> numbers(static_cast<std::size_t>(count * size));
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 1 + 1 / (Number(3) + static_cast<Number>(i));
+  Real sum[WorkingSet::chains] = {};
   for (auto _ : bench) {
     for (Index i = 0; i < count; i += WorkingSet::chains)
       for (Index k = 0; k < WorkingSet::chains; ++k)
-        sum[k] = operation(sum[k], load(numbers.data() + (i + k) * pack_size));
+        sum[k] = operation(sum[k], Real(numbers.data() + (i + k) * size, simd::element_aligned));
     benchmark::ClobberMemory();
   }
-  for (Pack& s : sum) benchmark::DoNotOptimize(s);
-  const double operations = static_cast<double>(count) * pack_size;
+  for (Real& s : sum) benchmark::DoNotOptimize(s);
+  const double operations = static_cast<double>(count) * size;
   bench.counters["numbers"] = Counter(operations, Counter::kIsIterationInvariantRate);
   bench.counters["flops"] = Counter(flops * operations, Counter::kIsIterationInvariantRate);
 }
 
-void add_arithmetic() {
-  using benchmark::RegisterBenchmark;
-  const auto add = [](const Pack& sum, const Pack& x) { return sum + x; };
-  const auto multiply_add = [](const Pack& sum, const Pack& x) { return sum * Pack(0.5) + x; };
-  const auto divide = [](const Pack& sum, const Pack& x) { return sum + 1.0 / x; };
-  const auto root = [](const Pack& sum, const Pack& x) { return sum + simd::sqrt(x); };
-  RegisterBenchmark("arithmetic/add", [=](benchmark::State& b) { compute(b, 1, add); });
-  RegisterBenchmark("arithmetic/multiply_add", [=](benchmark::State& b) { compute(b, 2, multiply_add); });
-  RegisterBenchmark("arithmetic/divide_and_add", [=](benchmark::State& b) { compute(b, 2, divide); });
-  RegisterBenchmark("arithmetic/root_and_add", [=](benchmark::State& b) { compute(b, 2, root); });
+template <class Number>
+void add_arithmetic(const std::string& width) {
+  const auto add = [](const auto& sum, const auto& x) { return sum + x; };
+  const auto multiply_add = [](const auto& sum, const auto& x) { return sum * constant<decltype(x + x)>(0.5) + x; };
+  const auto divide = [](const auto& sum, const auto& x) { return sum + 1 / x; };
+  const auto root = [](const auto& sum, const auto& x) { return sum + simd::sqrt(x); };
+  const auto enter = [&](const char* name, int flops, auto operation) {
+    benchmark::RegisterBenchmark(("arithmetic/" + std::string(name) + width).c_str(),
+                                 [=](benchmark::State& b) { compute<Number>(b, flops, operation); });
+  };
+  enter("add", 1, add);
+  enter("multiply_add", 2, multiply_add);
+  enter("divide_and_add", 2, divide);
+  enter("root_and_add", 2, root);
 }
 
 void add_bandwidth(const std::string& level, double bytes) {
@@ -132,7 +137,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   wedge::add_levels();
-  wedge::add_arithmetic();
+  wedge::add_arithmetic<double>("");
+  wedge::add_arithmetic<float>("_float");
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -112,7 +112,13 @@ void add_contacts(const SettledColumn& c, const char* name, Friction friction) {
     const LawPasses law = bed.law(friction);
     for (auto _ : bench) law.evaluate_contacts(bed.state, bed.reactions, still);
     report(bench, bed.state.particles.count(), contact_bytes(bed.state, bed.reactions, friction));
-    bench.counters["rows_each"] = bed.state.contacts.rows() / static_cast<double>(c.grains);
+    const double rows_each = bed.state.contacts.rows() / static_cast<double>(c.grains);
+    bench.counters["rows_each"] = rows_each;
+    if (friction == Friction::rolling && c.kind == Grains::alike) {
+      bench.counters["operations_each"] = RowArithmetic::operations * rows_each;
+      bench.counters["roots_each"] = RowArithmetic::roots * rows_each;
+      bench.counters["divisions_each"] = RowArithmetic::divisions * rows_each;
+    }
   });
 }
 
@@ -132,7 +138,7 @@ void add_fold(const SettledColumn& c) {
   benchmark::RegisterBenchmark(("fold" + c.name()).c_str(), [=](benchmark::State& bench) {
     Bed& bed = settled_bed(c);
     for (auto _ : bench) fold_reactions(bed.state, bed.reactions);
-    report(bench, bed.state.particles.count(), fold_bytes(bed.reactions));
+    report(bench, bed.state.particles.count(), fold_bytes(bed.state, bed.reactions));
   });
 }
 

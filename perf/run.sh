@@ -2,7 +2,8 @@
 # run.sh [GRAINS [ROUNDS]]: how fast is the settled column (32000 grains, 5 rounds), and how fast are LAMMPS and LIGGGHTS
 # on the same places, where they are installed (Debian: lammps, liggghts)? Builds bench_step, settles the column once,
 # then runs all in turn, one core each, so that a machine whose speed drifts drifts for all. Prints medians and ratios.
-# Then what the machine can do at most and what each pass costs, by Google Benchmark (Debian: libbenchmark-dev).
+# Then what the machine can do at most, what each pass costs, and the one over the other, by Google Benchmark (Debian:
+# libbenchmark-dev).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . apps/install_needed.sh
@@ -34,8 +35,8 @@ loop_time() { awk '/^Loop time of/ { s = $4; k = $9; n = $12 } END { print k * n
 lammps() { OMP_NUM_THREADS=1 lmp -log none -in perf/peers/column.lmp -var data "$data" -var law "$1" -var warm 200 -var steps $steps | loop_time; }
 liggghts_cdt() { liggghts -log none -in perf/peers/column.liggghts -var data "$data" -var warm 200 -var steps $steps | loop_time; }
 
-names=("wedge, rolling friction" "wedge, no rolling friction")
-commands=("ours --rolling on" "ours --rolling off")
+names=("wedge, rolling friction" "wedge, no rolling friction" "wedge, mixed precision, rolling friction")
+commands=("ours --rolling on" "ours --rolling off" "ours --rolling on --precision mixed")
 if command -v lmp >/dev/null; then
   names+=("LAMMPS gran/hertz/history, no rolling" "LAMMPS granular, rolling sds")
   commands+=("lammps history" "lammps sds")
@@ -66,8 +67,13 @@ for c in "${!commands[@]}"; do
     "$(column "$c" | tail -n 1)" "$(ratio 0 "$c")" "$(ratio 1 "$c")"
 done
 
-# medians PROGRAM OPTION...: of three repetitions.
-medians() { "$@" --benchmark_repetitions=3 --benchmark_display_aggregates_only=true --benchmark_counters_tabular=true | grep -vE '_(mean|stddev|cv) '; }
+# medians NAME PROGRAM OPTION...: of three repetitions; all in the file NAME.json.
+medians() {
+  local out=$folder/$1.json
+  shift
+  "$@" --benchmark_repetitions=3 --benchmark_min_time=0.2 --benchmark_display_aggregates_only=true --benchmark_counters_tabular=true \
+    --benchmark_out="$out" --benchmark_out_format=json | grep -vE '_(mean|stddev|cv) '
+}
 echo
 if ! cmake --build build/release --target help | grep bench_passes >/dev/null; then
   echo "Google Benchmark is not installed: no tables of the machine's limits and of the passes"
@@ -75,5 +81,7 @@ if ! cmake --build build/release --target help | grep bench_passes >/dev/null; t
 fi
 cmake --build build/release -j "$(nproc)" --target bench_limits bench_passes
 for size in 2000 32000 120000; do settle $size; done  # the largest takes some minutes
-medians build/release/perf/bench_limits
-medians build/release/perf/bench_passes "$folder"
+medians limits build/release/perf/bench_limits
+medians passes build/release/perf/bench_passes "$folder"
+echo
+awk -f perf/bound.awk "$folder/limits.json" "$folder/passes.json"
