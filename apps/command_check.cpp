@@ -19,12 +19,12 @@ namespace wedge {
 namespace {
 
 // What the estimates assume, as measured on dense beds of equal grains.
-constexpr double bytes_per_grain = 1200;       // memory: grain, near pairs, images, scratch, while a bed collapses
-constexpr double bytes_in_any_case = 20e6;     // memory: program and libraries
-constexpr double steps_per_core_second = 6e6;  // grains times steps
-constexpr double frame_bytes = 52;             // per grain, packed, single precision
-constexpr double contact_bytes = 58;           // per contact, packed, single precision
-constexpr double contacts_per_grain = 2.5;     // half of a coordination number of 5
+constexpr double bytes_per_grain = 1200;    // memory: grain, near pairs, images, scratch, while a bed collapses
+constexpr double bytes_in_any_case = 20e6;  // memory: program and libraries
+constexpr double steps_per_core_second = 12e6, mixed_steps_per_core_second = 18e6;  // grains times steps
+constexpr double frame_bytes = 52;               // per grain, packed, single precision
+constexpr double contact_bytes = 58;             // per contact, packed, single precision
+constexpr double contacts_per_grain = 2.5;       // half of a coordination number of 5
 constexpr double double_precision_factor = 2.2;  // doubles are longer and pack less well
 constexpr double checkpoint_bytes = 550;         // per grain
 constexpr double series_row_bytes = 640;         // a row of energies, ledger and walls together
@@ -225,10 +225,12 @@ void print_costs(const Scene& scene, double grains, int threads) {
     return;
   }
   const double steps = steps_of(scene);
-  std::cout << "  wall time: " << at_most << duration_text(steps * grains / (steps_per_core_second * used))
-            << " on " << used << (used == 1 ? " thread" : " threads") << " (" << short_number(*time)
-            << " s simulated, " << text_of(std::llround(steps))
-            << " steps; assumes 6e6 grains times steps per second and core)\n";
+  const bool mixed = scene.run.precision == Precision::mixed;
+  const double rate = mixed ? mixed_steps_per_core_second : steps_per_core_second;
+  std::cout << "  wall time: " << at_most << duration_text(steps * grains / (rate * used)) << " on " << used
+            << (used == 1 ? " thread" : " threads") << " (" << short_number(*time) << " s simulated, "
+            << text_of(std::llround(steps)) << " steps; assumes " << short_number(rate)
+            << " grains times steps per second and core" << (mixed ? ", in mixed precision" : "") << ")\n";
 }
 
 }  // namespace

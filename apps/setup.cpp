@@ -164,7 +164,7 @@ double stage_time_step(const Scene& scene, const State& state, const Stage& stag
         std::min(shortest, rayleigh_time(state.particles.radius[i],
                                          scene.materials[static_cast<std::size_t>(state.particles.material[i])]));
   const bool by_grains = std::isfinite(shortest) && scene.contact.law != ContactLaw::linear;
-  const double step = by_grains ? 0.1 * shortest : chosen_time_step(scene);
+  const double step = by_grains ? automatic_part(scene) * shortest : chosen_time_step(scene);
   if (!(step > 0))
     throw SceneError(
         "time.step = \"auto\": no grain is there, or none of known size, to choose a time step by; give it in "

@@ -144,7 +144,7 @@ void check_step(SceneReading& reading, const Scene& scene, double step, const st
                                   " % of the " + (linear ? "contact time, " : "Rayleigh time, ") +
                                   short_number(scale) + " s",
                               "use at most " + short_number(limit) +
-                                  " s, better \"auto\": " + short_number(scale * (linear ? 1.0 / 50 : 0.1)) + " s");
+                                  " s, better \"auto\": " + short_number(scale * (linear ? 1.0 / 50 : automatic_part(scene))) + " s");
 }
 
 /// How stages end must be something that can happen.

@@ -18,11 +18,14 @@ using Warnings = std::vector<std::string>;
 void doubt_step(const Scene& scene, double step, const std::string& where, Warnings& warnings) {
   const bool linear = scene.contact.law == ContactLaw::linear;
   const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
-  if (scale > 0 && step > (linear ? doubtful_linear_step : doubtful_step) * scale)
+  if (scale > 0 && step > (linear ? doubtful_linear_step : doubtful_step / damping_shortens(scene)) * scale)
     warnings.push_back(
         where + " of " + short_number(step) + " s is " + short_number(100 * step / scale) + " % of the " +
-        (linear ? "contact" : "Rayleigh") + " time, " + short_number(scale) +
-        " s: a bed may be heated by such a step and never come to rest; watch the residual in energies.csv");
+        (linear ? "contact" : "Rayleigh") + " time, " + short_number(scale) + " s" +
+        (!linear && damping_shortens(scene) > 1
+             ? ", with a damping ratio of " + short_number(largest_damping(scene))
+             : "") +
+        ": a bed may be heated by such a step and never come to rest; watch the residual in energies.csv");
   const double impact = linear ? 0 : collision_time(scene, 1.0);
   if (impact > 0 && impact < 10 * step)
     warnings.push_back("with " + where + " of " + short_number(step) + " s a collision at 1 m/s lasts only " +

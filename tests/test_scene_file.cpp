@@ -77,6 +77,20 @@ TEST_CASE("the hopper is the paper's", "[scene]") {
   CHECK(collision_time(pile, 1.0) / pile.time_step == Approx(14).margin(0.5));
 }
 
+TEST_CASE("the automatic step is a tenth of the Rayleigh time, and shorter with strong damping", "[scene]") {
+  Scene automatic = read_scene(scene_folder + "hopper.toml", {});
+  automatic.time_step = 0;  // "auto": 10 % up to a damping ratio of 0.3, then less in proportion
+  for (const auto& [damping, part] : {std::pair(0.1, 0.1), std::pair(0.3, 0.1), std::pair(0.6, 0.05)}) {
+    Interaction& pair = automatic.interactions(0, 0);
+    pair.damping_normal = 0.1;
+    pair.damping_tangential = damping;
+    CHECK(chosen_time_step(automatic) == Approx(part * rayleigh_time(automatic)));
+    pair.restitution = restitution_of(automatic.contact.law, automatic.contact.tension, damping);
+    CHECK(chosen_time_step(automatic) == Approx(part * rayleigh_time(automatic)));
+    pair.restitution.reset();
+  }
+}
+
 TEST_CASE("everything a scene can say survives the round trip", "[scene]") {
   std::string text =
       replaced(sound, "diameter = 0.002",
