@@ -22,6 +22,7 @@
 #include "io/checkpoint.hpp"
 #include "io/provenance.hpp"
 #include "io/scene_file.hpp"
+#include "io/scene_names.hpp"
 #include "kernels/measure.hpp"
 
 namespace wedge {
@@ -122,10 +123,12 @@ int finish(Simulation& run, RunEnd end, const RunFolder& folder, const RunArgume
   getrusage(RUSAGE_SELF, &usage);
   const State& state = run.state();
   if (arguments.timings) print_timings(run);
-  std::printf("%s: %lld steps, %.6g s simulated, %d grains inside, %lld out, peak memory %.0f MB, state %016llx\n",
-              folder.path().c_str(), static_cast<long long>(state.step), state.time, state.particles.count(),
-              static_cast<long long>(state.taken_out), static_cast<double>(usage.ru_maxrss) / 1024,
-              static_cast<unsigned long long>(state_hash(state)));
+  std::printf(
+      "%s: %lld steps, %.6g s simulated, %d grains inside, %lld out, %s precision, peak memory %.0f MB, state "
+      "%016llx\n",
+      folder.path().c_str(), static_cast<long long>(state.step), state.time, state.particles.count(),
+      static_cast<long long>(state.taken_out), precision_names.of(state.particles.seen.precision()).c_str(),
+      static_cast<double>(usage.ru_maxrss) / 1024, static_cast<unsigned long long>(state_hash(state)));
   switch (end) {
     case RunEnd::interrupted:
       std::printf("interrupted, with a checkpoint; go on with: wedge resume %s\n", folder.path().c_str());
@@ -163,7 +166,7 @@ int command_run(const RunArguments& arguments) {
   catch_interrupts();
   write_text_file_atomically(folder.scene(), scene.text);
   write_text_file_atomically(folder.resolved_scene(), resolved_scene(scene));
-  write_provenance(folder.provenance(), arguments.command_line, threads);
+  write_provenance(folder.provenance(), arguments.command_line, threads, precision_names.of(scene.run.precision));
   const std::string no_grains = no_grains_text(scene);
   Simulation run = [&] {
     try {

@@ -87,7 +87,7 @@ WEDGE_INLINE void store(double* numbers, const simd::simd<Number, Abi>& pack) {
 }
 inline void store(double* number, double value) { *number = value; }
 
-/// A record of eight numbers: one cache line, or half of it.
+/// Records of eight doubles (a cache line), of four, and of eight floats.
 typedef double Eight __attribute__((vector_size(64), may_alias));
 typedef double Four __attribute__((vector_size(32), may_alias));
 typedef float EightFloats __attribute__((vector_size(32), may_alias));

@@ -1,8 +1,11 @@
 // seen.hpp: what contacts see of the grains and images, one record a slot, in double or single precision.
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <type_traits>
 
+#include "core/array.hpp"
 #include "core/precision.hpp"
 #include "core/vec3.hpp"
 
@@ -21,7 +24,7 @@ struct alignas(std::is_same_v<Number, float> ? 64 : 32) SeenOf {
   Number material = 0;               // index of the material
 };
 using Seen = SeenOf<double>;
-inline constexpr std::size_t seen_size = 12;  // numbers
+inline constexpr std::size_t seen_size = 12;  // numbers in a record, of either width
 static_assert(sizeof(Seen) == seen_size * sizeof(double) && sizeof(SeenOf<float>) == 64);
 
 template <class To, class From>
@@ -65,6 +68,7 @@ public:
   /// Pre: Number is float where the precision is mixed, and double otherwise.
   template <class Number>
   SeenOf<Number>* data() {
+    assert((std::is_same_v<Number, float> == narrow()));
     if constexpr (std::is_same_v<Number, float>)
       return single_.data();
     else

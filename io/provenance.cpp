@@ -99,7 +99,8 @@ std::string version_text() {
   return description.empty() ? WEDGE_VERSION : WEDGE_VERSION " (" + description + ")";
 }
 
-void write_provenance(const std::string& path, const std::vector<std::string>& command_line, int threads) {
+void write_provenance(const std::string& path, const std::vector<std::string>& command_line, int threads,
+                      const std::string& precision) {
   std::vector<std::string> command = command_line;
   if (!command.empty()) command[0] = command[0].substr(command[0].find_last_of('/') + 1);
   JsonObject object;
@@ -112,6 +113,7 @@ void write_provenance(const std::string& path, const std::vector<std::string>& c
   object.add("processor", processor_model());
   object.add("cores", usable_cores());
   object.add("threads", threads);
+  object.add("precision", precision);
   object.add("started", utc_now());
   object.add("command_line", command);
   write_text_file_atomically(path, object.text());

@@ -13,7 +13,8 @@ std::string version_text();
 /// Replaces `path` by a JSON object: versions of wedge, compiler and HDF5, flags, processor model, cores, threads,
 /// start time (UTC) and command line. Says nothing about user or host; of the program's path only the name is kept.
 /// Throws FileError.
-void write_provenance(const std::string& path, const std::vector<std::string>& command_line, int threads);
+void write_provenance(const std::string& path, const std::vector<std::string>& command_line, int threads,
+                      const std::string& precision);
 
 /// How far a run is.
 struct Progress {

@@ -31,7 +31,7 @@ inline void book(const ContactLosses& losses, EnergyLedger& energy) {
   energy.rolling += losses.rolling;
 }
 
-/// The losses of a tile, lane by lane.
+/// The losses of a tile, lane by lane: some hundred terms a lane, so that floats lose a millionth of them at most.
 template <class Number>
 struct PackLosses {
   PackOf<Number> normal_damping = 0, tangential_damping = 0, sliding = 0, tangential_work = 0, rolling = 0;
@@ -147,9 +147,10 @@ WEDGE_INLINE Vector3<Real> couples(const Pairs& pairs, const ForceStep<Number>& 
   const Real mass_first = of.mass_first.load(row), mass_second = of.mass_second.load(row);
   Vector3<Real> couple;
   if constexpr (friction == Friction::relative) {
-    const Real first = sphere_inertia(mass_first, pairs.radius_first),
-               second = sphere_inertia(mass_second, pairs.radius_second);
-    in.inertia = first * second / (first + second) / most_contacts.load(row);
+    // by inverses: the product of two inertias of powder is too small for a float
+    in.inertia = 1 / ((1 / sphere_inertia(mass_first, pairs.radius_first) +
+                       1 / sphere_inertia(mass_second, pairs.radius_second)) *
+                      most_contacts.load(row));
     couple = on * relative_couple(in, step.dt);
   } else {
     in.inertia = 1 / (1 / rocking_inertia(mass_first, pairs.radius_first) +
@@ -291,7 +292,7 @@ public:
   }
 
 private:
-  static constexpr Index fetched_ahead = 96, histories_ahead = 320;  // rows
+  static constexpr Index fetched_ahead = 96, histories_ahead = 320;  // rows, as measured (perf/README.md)
 
   static StoredVectors at(Vec3Array& v, Index row) {
     if (v.size() == 0) return {};
@@ -315,17 +316,18 @@ private:
     add_to_sums<Mix::alike>(outcome_, first, reactions_.target.data() + from, rows,
                             reactions_.template sum<Number>(0));
   }
-  /// Asks for a slab of stored vectors that comes soon: there are more arrays than the processor follows by itself.
+  /// Asks for the histories of rows that come soon: there are more arrays than the processor follows by itself.
   static void fetch(const Vec3Array& stored, Index from) {
     const auto end = std::min(static_cast<std::size_t>(from + slab_size), stored.size());
     for (auto row = static_cast<std::size_t>(from); row < end; row += cache_line / sizeof(double))
       for (const Array<double>* component : {&stored.x, &stored.y, &stored.z})
         __builtin_prefetch(component->data() + row, 1);
   }
-  /// Lanes without a row hold grains that do not touch, so that they add to no sum.
+  /// Lanes without a row hold grains that do not touch, so that they add nothing to the losses.
   void part_two_grains(Index row) {
-    seen_.apart.x.number[row] = 1e9;
-    seen_.closeness.number[row] = -1;
+    constexpr Number far_apart = 1e9;  // m
+    seen_.apart.x.number[row] = far_apart;
+    if constexpr (std::is_same_v<Number, float>) seen_.closeness.number[row] = -1;
   }
   Index contact_count(Index slot) const { return c_.contact_count[static_cast<std::size_t>(slot)]; }
 

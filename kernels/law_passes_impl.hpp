@@ -1,6 +1,8 @@
 // law_passes_impl.hpp: turns the options of a scene into types, for one law. Included once per law.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <variant>
 
 #include "kernels/contact_forces.hpp"
@@ -65,7 +67,7 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
 template <Friction friction>
 using Level = std::integral_constant<Friction, friction>;
 
-/// What the grains of a scene have in common.
+/// What the grains of a scene have in common. `uniform` in what follows: radius and material are those of all.
 enum class Alike { nothing, material, material_and_radius };
 template <Alike alike>
 using Common = std::integral_constant<Alike, alike>;
@@ -116,7 +118,7 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
         constexpr Friction need = decltype(f)::value;
         constexpr bool books = decltype(with_budget)::value;
         constexpr bool compared =
-            is_total_coulomb<Law> || has_couples(need);  // for comparison: no loop of their own
+            is_total_coulomb<Law> || has_couples(need);  // rarely run: one loop does for all grains and budgets
         constexpr Alike alike = compared ? Alike::nothing : decltype(in_common)::value;
         const auto pass = [damping](const auto& mix) {
           return [mix, damping](State& s, Reactions& r, double dt) {

@@ -21,8 +21,8 @@ struct alignas(cache_line) ColumnOf {
   WEDGE_INLINE Real load(Index row) const { return Real(number + row, simd::element_aligned); }
   WEDGE_INLINE void store(Index row, const Real& pack) { pack.copy_to(number + row, simd::element_aligned); }
   /// Eight numbers, of any width.
-  template <class Eight_>
-  WEDGE_INLINE void store_eight(Index row, const Eight_& eight) {
+  template <class Record>
+  WEDGE_INLINE void store_eight(Index row, const Record& eight) {
     *reinterpret_cast<eight_of<Number>*>(number + row) = __builtin_convertvector(eight, eight_of<Number>);
   }
   WEDGE_INLINE eight_of<Number> load_eight(Index row) const {
@@ -43,7 +43,7 @@ struct VectorColumnsOf {
 };
 using VectorColumns = VectorColumnsOf<double>;
 
-/// What the rows of a slab see of their two grains. The last lines are filled only where grains differ.
+/// What the rows of a slab see of their two grains. From spin_difference on, filled only where grains differ.
 template <class Number>
 struct SeenSlab {
   VectorColumnsOf<Number> apart;  // m: from the second to the first
@@ -58,8 +58,7 @@ struct SeenSlab {
 /// The grains of the rows of a slab.
 struct SlabRows {
   const Index *first, *second;
-  const Index*
-      soon;  // `second` of rows that come soon, as many: their grains are fetched while these are collected
+  const Index* soon;  // `count` entries of `second` of later rows: their grains are asked for meanwhile
   Index count;
 };
 

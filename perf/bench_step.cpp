@@ -54,13 +54,28 @@ Options read_options(int argc, char** argv) {
     option[name.substr(2)] = argv[++i];
   }
   if (option["case"] != "column") throw BadOption("only --case column is built");
-  if (option["precision"] != "double" && option["precision"] != "mixed")
-    throw BadOption("--precision is double or mixed");
   return option;
 }
 
-Precision precision_of(Options& option) {
-  return option["precision"] == "mixed" ? Precision::mixed : Precision::double_precision;
+/// The first of two words that an option may be?
+bool is_first(const Options& option, const std::string& name, const char* first, const char* second) {
+  const std::string& value = option.at(name);
+  if (value != first && value != second) throw BadOption("--" + name + " is " + first + " or " + second);
+  return value == first;
+}
+
+/// A number of at least `least`.
+double number(const Options& option, const std::string& name, double least) {
+  const std::string& value = option.at(name);
+  char* end = nullptr;
+  const double result = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != 0 || !(result >= least && result < 1e9))
+    throw BadOption("--" + name + " needs a number of at least " + std::to_string(least) + ", not '" + value + "'");
+  return result;
+}
+
+Precision precision_of(const Options& option) {
+  return is_first(option, "precision", "mixed", "double") ? Precision::mixed : Precision::double_precision;
 }
 
 /// A fixed small run: grains that fall, meet and begin to rest, so that lists are made and contacts come and go.
@@ -97,16 +112,16 @@ void report(const State& state, TimeStep& step, int steps) {
 
 void time_column(Options option) {
   ColumnOptions column;
-  column.particles = std::atol(option["particles"].c_str());
-  column.friction = option["rolling"] == "on" ? Friction::rolling : Friction::sliding;
-  column.order = static_cast<int>(360 / std::atof(option["angle"].c_str()) + 0.5);
-  column.energy_budget = option["budget"] == "on";
+  column.particles = static_cast<long>(number(option, "particles", 1));
+  column.friction = is_first(option, "rolling", "on", "off") ? Friction::rolling : Friction::sliding;
+  column.order = static_cast<int>(360 / number(option, "angle", 1) + 0.5);
+  column.energy_budget = is_first(option, "budget", "on", "off");
   column.precision = precision_of(option);
-  const int steps = std::atoi(option["steps"].c_str());
+  const int steps = static_cast<int>(number(option, "steps", 1));
   const Scene scene = column_scene(column);
   State state = column_state(scene, option["start"]);
   const auto settle_begin = std::chrono::steady_clock::now();
-  settle(scene, state, std::atof(option["settle"].c_str()));
+  settle(scene, state, number(option, "settle", 0));
   const double settle_seconds = seconds_since(settle_begin);
   if (!option["write"].empty()) write_places(state, option["write"]);
 
@@ -139,7 +154,7 @@ void time_column(Options option) {
 int main(int argc, char** argv) {
   try {
     Options option = read_options(argc, argv);
-    set_thread_count(std::atoi(option["threads"].c_str()));
+    set_thread_count(static_cast<int>(number(option, "threads", 1)));
     if (option["signature"] == "on")
       print_signature(precision_of(option));
     else

@@ -93,7 +93,7 @@ skin, double precision, the full vessel. Seeds are 1, 2, ...; their number stand
 How to read a cell: difference from the mean of the reference in per cent of it ± its standard error, from the spread
 of both over the seeds. **Bold**: beyond the 99 % interval of Welch's comparison of two means. Else it is within the
 spread: no error was seen, which does not say that there is none. The row of the reference has means ± standard
-errors. *Smallest error seen* is that interval for the standard choice (where this is the reference, for the last row).
+errors. *Smallest error that would show* is that interval for the standard choice (where this is the reference, for the last row).
 
 Speeds are simulated time per second of computing over that of the standard choice, in turn within one process, on the
 settled bed and with the outlet open: median (least to most of the rounds); time of the process, not of the clock.
@@ -250,7 +250,7 @@ std::string Page::error_table(const Table& table, const std::string& scene) {
       (fewest < most ? std::to_string(fewest) + " to " : "") + std::to_string(most) + " seeds";
   std::string text =
       "\n" + scene + ", " + seeds + ", reference " + label(table, reference) + ":\n\n" + head(heading);
-  std::vector<std::string> seen{"*smallest error seen*, %", "", "", ""};
+  std::vector<std::string> seen{"*smallest error that would show*, %", "", "", ""};
   for (const Variant& v : table.variants) {
     const bool is_reference = v.name() == reference.name();
     std::vector<std::string> cells{label(table, v) + (is_reference ? ", reference" : ""),
@@ -348,7 +348,7 @@ grains stand here for deep beds too, whose overlaps are as large.
 ## Drift of trajectories
 
 Root mean square distance of equal grains, in d, from one moment of the flow on; mean of the seeds ± standard error. The
-first line of a scene is what chaos makes of round-off alone; other precisions follow where they are built.
+first line of a scene is what chaos makes of round-off alone.
 
 )" + drift_table();
   const std::string count = "\nOf the " + std::to_string(comparisons_) + " comparisons with a reference above, " +

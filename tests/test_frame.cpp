@@ -261,7 +261,7 @@ TEST_CASE("progress and provenance are written as JSON") {
   CHECK(read.step == progress.step);
   CHECK(read.time == progress.time);
   CHECK(read.eta_seconds == -1);
-  write_provenance(folder / "provenance.json", {"/home/someone/bin/wedge", "run", "a \"b\".toml"}, 4);
+  write_provenance(folder / "provenance.json", {"/home/someone/bin/wedge", "run", "a \"b\".toml"}, 4, "mixed");
   const std::string text = read_text_file(folder / "provenance.json");
   CHECK_THAT(text, Contains("\"threads\": 4"));
   CHECK_THAT(text, Contains(R"("command_line": ["wedge", "run", "a \"b\".toml"])"));
