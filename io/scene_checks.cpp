@@ -139,12 +139,12 @@ void check_step(SceneReading& reading, const Scene& scene, double step, const st
   const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
   const double limit = (linear ? refused_linear_step : refused_step) * scale;
   if (scale > 0 && step > limit)
-    reading.diagnostics.error(reading.place(path),
-                              "a time step of " + plain_number(step) + " s is " + short_number(100 * step / scale) +
-                                  " % of the " + (linear ? "contact time, " : "Rayleigh time, ") +
-                                  short_number(scale) + " s",
-                              "use at most " + short_number(limit) +
-                                  " s, better \"auto\": " + short_number(scale * (linear ? 1.0 / 50 : automatic_part(scene))) + " s");
+    reading.diagnostics.error(
+        reading.place(path),
+        "a time step of " + plain_number(step) + " s is " + short_number(100 * step / scale) + " % of the " +
+            (linear ? "contact time, " : "Rayleigh time, ") + short_number(scale) + " s",
+        "use at most " + short_number(limit) +
+            " s, better \"auto\": " + short_number(scale * (linear ? 1.0 / 50 : automatic_part(scene))) + " s");
 }
 
 /// How stages end must be something that can happen.
