@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# plan.sh [SET...]: the runs of the study, one a line: SET/RUN, scene, then what `wedge run --set` sets, all separated
+# by blanks. Sets: pile hopper20 hopper40 sides angle. Without a set: all of them.
+set -euo pipefail
+
+# vessel WIDTH ORIFICE COUNT: settings of a hopper WIDTH d wide with an orifice of ORIFICE d and COUNT grains (of the
+# full vessel), which fill a region 28 % full.
+vessel() {
+  awk -v w="$1" -v o="$2" -v n="$3" 'BEGIN { r = w / 2; c = o / 2; h = n * 4 / (6 * 0.28 * w * w)
+    printf "wall.shell.profile=[[\"%g_d\",0],[\"%g_d\",\"%g_d\"]] ", r, r, h + 6
+    printf "wall.floor.profile=[[\"%g_d\",0],[\"%g_d\",0]] ", c, r
+    printf "wall.plug.profile=[[0,0],[\"%g_d\",0]] ", c
+    printf "particles.count=%d ", n
+    printf "particles.region={r=[0,\"%g_d\"],z=[0,\"%g_d\"]}", r, h }'
+}
+
+# seeds FIRST LAST ANGLE...: every angle for each seed, seeds in turn.
+pile() {
+  for seed in 1 2 3 4 5 6 7 8; do for angle in 360 90 60 45 30; do
+    echo "pile/a${angle}_s$seed pile domain.angle=$angle particles.seed=$seed"
+  done; done
+}
+hopper20() {  # a bed of 90 d
+  for seed in 1 2 3 4 5 6 7 8; do for angle in 360 90 60 45 30; do
+    echo "hopper20/a${angle}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle particles.seed=$seed"
+  done; done
+}
+hopper40() {  # the paper's
+  for seed in 1 2; do for angle in 360 90 60 45 30; do
+    echo "hopper40/a${angle}_s$seed hopper domain.angle=$angle particles.seed=$seed"
+  done; done
+}
+sides() {  # what bounds a sector, in the vessel of set hopper20
+  for seed in 1 2 3 4 5 6; do
+    for angle in 90 45; do
+      for sides in rigid frictionless; do
+        echo "sides/a${angle}_${sides}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.sides=$sides particles.seed=$seed"
+      done
+      for axis in images pin line; do
+        echo "sides/a${angle}_${axis}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.axis=$axis particles.seed=$seed"
+      done
+    done
+    echo "sides/slot_s$seed slot particles.seed=$seed"
+  done
+}
+# thin WIDTH ORIFICE COUNT ANGLE SEEDS: a bed of 1.2 widths. Each line begins with its seed.
+thin() {
+  for seed in $(seq 1 "$5"); do
+    echo "$seed angle/w${1}_o${2}_a${4}_s$seed hopper $(vessel "$1" "$2" "$3") domain.angle=$4 particles.seed=$seed"
+  done
+}
+all_thin() {
+  local a n o
+  for a in "360 4" "180 4" "120 4" "90 6" "72 6" "60 6" "45 8" "36 8" "30 8" "24 8" "20 8" "15 8"; do
+    n=${a#* } a=${a% *}
+    thin 20 8 8280 "$a" "$n"
+    thin 30 8 27720 "$a" "$n"
+  done
+  for o in 8 6 10 12; do
+    for a in "360 2" "180 2" "120 2" "90 3" "72 3" "60 4" "45 4" "36 4" "30 6" "24 6" "20 6" "15 6"; do
+      thin 40 "$o" 65160 "${a% *}" "${a#* }"
+    done
+  done
+  for a in "360 1" "60 2" "45 2" "30 3"; do thin 60 8 220320 "${a% *}" "${a#* }"; done
+}
+
+
+[ $# -gt 0 ] || set -- pile hopper20 hopper40 sides angle
+angle() { all_thin | sort -s -n -k 1,1 | cut -d " " -f 2-; }  # the first seed of every vessel and angle, then the second, ...
+
+for name in "$@"; do
+  case $name in
+    pile | hopper20 | hopper40 | sides | angle) "$name" ;;
+    *) echo "error: '$name' is no set of the study: pile hopper20 hopper40 sides angle" >&2; exit 2 ;;
+  esac
+done
