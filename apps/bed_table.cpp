@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
-#include <Eigen/Core>
-
+#include "apps/flank.hpp"
 #include "core/require.hpp"
 #include "core/time_scales.hpp"
 #include "io/atomic_file.hpp"
@@ -120,62 +118,14 @@ double ground(const State& state, double peak) {
   return height;
 }
 
-/// Surface of a pile, ring by ring one mean diameter wide: mean distance from the axis and mean height [m] of the
-/// highest grains, one from each cell of about one diameter along the ring.
-std::vector<Eigen::Vector2d> mean_surface(const State& state, bool slot) {
+/// See flank.hpp; rings are one mean diameter wide.
+double slope_of_bed(const State& state, bool slot) {
   const Particles& p = state.particles;
-  const double width = state.mean_diameter;
-  if (!(width > 0)) return {};
-  std::map<std::pair<std::size_t, std::size_t>, Eigen::Vector2d> highest;  // by ring and cell: (r, top)
-  for (std::size_t i = 0; i < grain_count(state); ++i) {
-    const Vec3 x = p.position.get(i);
-    const double r = slot ? std::abs(x.x) : std::hypot(x.x, x.y);
-    const auto ring = static_cast<std::size_t>(r / width);
-    const double along =
-        slot ? x.y : (std::atan2(x.y, x.x) + numbers::pi) * (static_cast<double>(ring) + 0.5) * width;
-    const double top = x.z + p.radius[i];
-    const auto cell = std::make_pair(ring, static_cast<std::size_t>(std::max(0.0, along) / width));
-    const auto found = highest.try_emplace(cell, r, top).first;
-    if (top > found->second.y()) found->second = {r, top};
-  }
-  std::vector<Eigen::Vector2d> sums;
-  std::vector<double> cells;
-  for (const auto& [cell, point] : highest) {
-    sums.resize(cell.first + 1, Eigen::Vector2d::Zero());
-    cells.resize(cell.first + 1, 0);
-    sums[cell.first] += point;
-    cells[cell.first] += 1;
-  }
-  std::vector<Eigen::Vector2d> surface;
-  for (std::size_t ring = 0; ring < sums.size(); ++ring)
-    if (cells[ring] > 0) surface.emplace_back(sums[ring] / cells[ring]);
-  return surface;
-}
-
-/// Slope of the surface as an angle [deg]: the line through the mean surface outside its peak, between 10 % and 90
-/// % of that height, by least squares. Not known with fewer than four rings there, as on a bed with a flat surface.
-double angle_of_repose(const State& state, bool slot) {
-  const std::vector<Eigen::Vector2d> rings = mean_surface(state, slot);
-  double peak = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& ring : rings) peak = std::max(peak, ring.y());
-  if (!std::isfinite(peak)) return not_known;
-  const double base = ground(state, peak);
-  std::vector<Eigen::Vector2d> slope;
-  bool outside = false;  // of the highest ring: inside it the pile of a sector may have a hollow at the axis
-  for (const Eigen::Vector2d& ring : rings) {
-    const double height = (ring.y() - base) / (peak - base);
-    if (outside && height > 0.1 && height < 0.9) slope.push_back(ring);
-    outside = outside || ring.y() == peak;
-  }
-  if (slope.size() < 4) return not_known;
-  Eigen::Vector2d centre(0, 0);
-  for (const Eigen::Vector2d& point : slope) centre += point / static_cast<double>(slope.size());
-  double along = 0, squares = 0;
-  for (const Eigen::Vector2d& point : slope) {
-    along += (point - centre).x() * (point - centre).y();
-    squares += (point - centre).x() * (point - centre).x();
-  }
-  return along < 0 ? std::atan(-along / squares) * 180 / numbers::pi : not_known;
+  std::vector<Ball> grains;
+  for (std::size_t i = 0; i < grain_count(state); ++i) grains.push_back({p.position.get(i), p.radius[i]});
+  const std::vector<Eigen::Vector2d> surface = mean_surface(grains, state.mean_diameter, slot);
+  const double peak = peak_height(surface);
+  return std::isfinite(peak) ? angle_of_repose(surface, ground(state, peak)) : not_known;
 }
 
 [[noreturn]] void throw_at_line(const std::string& path, std::size_t line, const std::string& what) {
@@ -214,7 +164,7 @@ StageResult measure_bed(const State& state, const Scene& scene, const std::strin
   add("kinetic energy per grain", "J", count > 0 ? mean_kinetic_energy(state) : not_known);
   add("bed height", "m", bed_height(state, scene));
   add("discharge rate", "1/s", discharge_rate * copies);
-  add("angle of repose", "deg", angle_of_repose(state, slot));
+  add("angle of repose", "deg", slope_of_bed(state, slot));
   add("wall time", "s", wall_seconds);
   return result;
 }

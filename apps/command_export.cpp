@@ -9,11 +9,11 @@
 #include <iostream>
 #include <limits>
 
-#include "apps/bed_table.hpp"
 #include "apps/commands.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/setup.hpp"
 #include "apps/unfold.hpp"
+#include "apps/walls_at.hpp"
 #include "core/require.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -90,23 +90,6 @@ void write_csv(const std::string& output, const ParticleFrame& frame, const Scen
   std::cout << read_text_file(file.path());
 }
 
-/// The walls as they stood at `time` [s]: stages that had begun by then have removed and added theirs.
-Vessel vessel_at(const Scene& scene, const RunFolder& folder, double time) {
-  Vessel vessel = make_domain(scene).vessel;
-  std::vector<StageResult> finished;
-  if (std::filesystem::exists(folder.beds())) finished = read_bed_table(folder.beds());
-  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
-    if (s > 0) {  // begun when the one before was finished, before `time`
-      if (finished.size() < s || finished[s - 1].quantities.empty()) break;
-      if (!(finished[s - 1].quantities.front().value < time)) break;
-    }
-    for (const std::string& name : scene.stages[s].remove) vessel.set_present(vessel.wall_index(name), false);
-    for (const std::string& name : scene.stages[s].add) vessel.set_present(vessel.wall_index(name), true);
-  }
-  for (int w = 0; w < vessel.wall_count(); ++w) vessel.set_travel(w, vessel.wall(w).speed * time);
-  return vessel;
-}
-
 }  // namespace
 
 Particles unfolded(const Particles& grains, const Symmetry& symmetry) {
@@ -164,7 +147,7 @@ int command_export(const ExportArguments& arguments) {
       path = path.substr(0, path.rfind('.')) + "_vessel.vtp";
     Domain domain = scene.domain;
     if (arguments.unfold && domain.kind == DomainKind::sector) domain.kind = DomainKind::full, domain.order = 1;
-    write_vessel_vtp(path, vessel_at(scene, folder, frame.header.time), domain);
+    write_vessel_vtp(path, walls_at(scene, folder, frame.header.time), domain);
     std::cerr << path << '\n';
   }
   return exit_code::ok;

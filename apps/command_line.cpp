@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iostream>
 
@@ -22,6 +23,7 @@ const char* const examples =
     "  wedge run hopper.toml -o sector90 --set domain.angle=90 --set particles.seed=2\n"
     "  wedge status full\n"
     "  wedge resume full --wall-time 12:00:00\n"
+    "  wedge analyse full --wedges 2\n"
     "  wedge compare full --with sector90\n"
     "  wedge export sector90 --last --to csv --unfold -o state.csv\n"
     "  wedge export full --frame 3 --to vtp --vessel\n"
@@ -56,6 +58,20 @@ double wall_time_of(const std::string& text) {
   throw CLI::ValidationError("--wall-time", "'" + text + "' is neither seconds nor HH:MM:SS");
 }
 
+/// "90,60": the numbers of sectors of these angles in a vessel.
+std::vector<int> orders_of(const std::string& text) {
+  std::vector<int> orders;
+  for (const CsvField& field : split_csv_line(text)) {
+    double degrees = 0;
+    const bool number = parse_number(field.text, degrees) == NumberError::none && degrees >= 1 && degrees <= 180;
+    const double order = number ? 360 / degrees : 0;
+    if (!number || std::abs(order - std::round(order)) > 1e-6)
+      throw CLI::ValidationError("--angles", "'" + field.text + "' is no angle in degrees that divides 360");
+    orders.push_back(static_cast<int>(std::lround(order)));
+  }
+  return orders;
+}
+
 /// The commands with their options; `todo` is what the chosen one does.
 class CommandLine {
 public:
@@ -66,6 +82,7 @@ public:
     add_run();
     add_resume();
     add_looking();
+    add_analyse();
     add_export();
     add_new();
     add_not_built();
@@ -180,6 +197,33 @@ private:
     compare->add_option("REF", reference_, "folders of the reference runs")->required();
     compare->add_option("--with", with_, "folders of the runs to compare")->required()->type_name("RUN");
   }
+  void add_analyse() {
+    CLI::App* analyse = command("analyse", "Measure a run: everything of apps/analysis/README.md, into DIR/results",
+                                [this] { return command_analyse(analyse_); });
+    folder_option(analyse, analyse_.folder);
+    const auto time_option = [&](const char* name, std::optional<double>& time, const char* meaning) {
+      analyse
+          ->add_option_function<std::string>(
+              name, [name, &time](const std::string& text) { time = number_of(name, text); }, meaning)
+          ->type_name("SECONDS");
+    };
+    time_option("--from", analyse_.from, "average the frames from this simulated time on, instead of the stages");
+    time_option("--to", analyse_.to, "... and up to this one");
+    analyse
+        ->add_option_function<std::string>(
+            "--angles", [this](const std::string& text) { analyse_.orders = orders_of(text); },
+            "sector angles whose cores, and wedges, are wanted of a full vessel (default 90,60,45,30)")
+        ->type_name("DEGREES,...");
+    analyse
+        ->add_option("--wedges", analyse_.wedges, "cut so many wedges of each angle from a full vessel (default 0)")
+        ->check(CLI::Range(0, 360))
+        ->type_name("N");
+    analyse->add_option("--cut", analyse_.cut, "height of the horizontal cut [m] (default 5 d above the ground)")
+        ->type_name("Z");
+    analyse->add_option("-j,--threads", analyse_.threads, "number of threads (default: all this process may use)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+  }
   void add_export() {
     CLI::App* out = command("export", "Write a frame as a table (csv) or for a viewer (vtp), or the walls",
                             [this] { return export_checked(); });
@@ -201,7 +245,7 @@ private:
         ->required();
   }
   void add_not_built() {
-    for (const char* name : {"analyse", "report"})
+    for (const char* name : {"report"})
       command(name, "(not built yet)", [name] {
         return usage(std::string(name) + " is not built yet");
       })->allow_extras();
@@ -224,6 +268,7 @@ private:
   std::function<int()> todo_;
   RunArguments run_;
   ExportArguments export_;
+  AnalyseArguments analyse_;
   std::string name_;
   std::vector<std::string> reference_, with_;
   long frame_ = -1;

@@ -37,6 +37,16 @@ struct ExportArguments {
   bool vessel = false;        // the walls, as .vtp
 };
 int command_export(const ExportArguments&);
+
+struct AnalyseArguments {
+  std::string folder;
+  std::optional<double> from, to;  // s
+  std::vector<int> orders;         // sectors in a vessel, whose cores and wedges are wanted; empty: 4, 6, 8, 12
+  int wedges = 0;                  // cut from a full vessel for each of them
+  std::optional<double> cut;       // m
+  int threads = 0;                 // 0: what the container may use
+};
+int command_analyse(const AnalyseArguments&);
 int command_new(const std::string& name);
 int command_compare(const std::vector<std::string>& reference, const std::vector<std::string>& with);
 

@@ -269,6 +269,8 @@ void write_contact_frame(const std::string& path, const State& state, const Vec3
   writer.save();
 }
 
+FrameHeader read_particle_header(const std::string& path) { return read_header(Hdf5Reader(path), particle_format); }
+
 ParticleFrame read_particle_frame(const std::string& path) {
   const Hdf5Reader file(path);
   ParticleFrame frame;

@@ -73,6 +73,7 @@ struct ContactFrame {
 };
 
 /// Throw FileError when the file is missing, is no such frame or has other fields.
+FrameHeader read_particle_header(const std::string& path);
 ParticleFrame read_particle_frame(const std::string& path);
 ContactFrame read_contact_frame(const std::string& path);
 

@@ -1,0 +1,161 @@
+// analyse.cpp: streams over the frames of a run, adds them up moment by moment, and writes what was found.
+#include "apps/analysis/analyse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "apps/analysis/results.hpp"
+#include "core/time_scales.hpp"
+#include "io/atomic_file.hpp"
+
+namespace wedge {
+namespace {
+
+using SumsOfMoments = std::vector<std::vector<std::unique_ptr<PartSums>>>;  // by moment, by part
+
+/// Cells d wide and 2 d high from the ground to a little above the bed of the first frame.
+FieldGrid make_grid(const AnalysedRun& run, const BedFrame& first) {
+  const double d = run.diameter;
+  std::vector<double> heights;
+  for (const BedGrain& g : first.grains)
+    if (g.in_bed) heights.push_back(g.position.z);
+  double top = first.ground + 2 * d;
+  if (!heights.empty()) {
+    const auto place =
+        heights.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(heights.size() - 1));
+    std::nth_element(heights.begin(), place, heights.end());
+    top = std::max(top, *place + 4 * d);
+  }
+  FieldGrid grid;
+  grid.left = run.left;
+  grid.low = first.ground;
+  grid.width = d;
+  grid.height = 2 * d;
+  const double across = run.slot ? 2 * run.radius : run.radius;
+  grid.columns = std::max(1, static_cast<int>(std::ceil(across / d - 1e-6)));
+  grid.rows = static_cast<int>(std::ceil((top - grid.low) / grid.height));
+  grid.smoothing = d;
+  grid.slot_width = run.slot ? run.scene.domain.slot_width : 0;
+  return grid;
+}
+
+double mean_mass(const BedFrame& bed) {
+  double sum = 0;
+  for (const BedGrain& g : bed.grains) sum += g.mass;
+  return bed.grains.empty() ? 1 : sum / static_cast<double>(bed.grains.size());
+}
+
+struct Pictures {
+  std::string slice, network, cut;
+};
+
+/// Reads the frames that some moment wants, once each.
+SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, const std::vector<Moment>& moments,
+                     Pictures& pictures) {
+  std::set<std::int64_t> wanted;
+  for (const Moment& m : moments) wanted.insert(m.frames.begin(), m.frames.end());
+  const std::vector<Part> parts = make_parts(run, request.parts);
+  SumsOfMoments sums(moments.size());
+  for (const std::int64_t number : wanted) {
+    const BedFrame bed = read_bed_frame(run, number);
+    if (sums.front().empty()) {
+      const FieldGrid grid = make_grid(run, bed);
+      for (auto& of_moment : sums)
+        for (const Part& part : parts)
+          of_moment.push_back(std::make_unique<PartSums>(run, part, grid, mean_mass(bed)));
+    }
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+      if (!std::binary_search(moments[m].frames.begin(), moments[m].frames.end(), number)) continue;
+      for (auto& part : sums[m]) part->add(bed);
+      if (moments[m].average) continue;
+      append_slice(pictures.slice, pictures.network, moments[m].name, slice_picture(run, bed));
+      append_cut(pictures.cut, moments[m].name,
+                 cut_picture(run, bed, request.cut.value_or(bed.ground + 5 * run.diameter)));
+    }
+  }
+  return sums;
+}
+
+/// Packing of the last instant before the orifice opened; nan without one.
+double packing_before_opening(const AnalysedRun& run, const std::vector<Moment>& moments, const SumsOfMoments& sums,
+                              std::size_t part) {
+  double packing = std::nan("");
+  const std::optional<double> opening = opening_time(run);
+  for (std::size_t m = 0; opening && m < moments.size(); ++m)
+    if (!moments[m].average && moments[m].end <= *opening + 1e-9) packing = sums[m][part]->mean("packing");
+  return packing;
+}
+
+/// Adds what follows from the discharge in the moment's span of time.
+void add_discharge(PartResult& result, const AnalysedRun& run, const Moment& moment,
+                   const std::vector<Crossing>& crossings, double packing_before) {
+  const std::optional<double> opening = opening_time(run);
+  if (!moment.average || !run.scene.domain.outlet_height || !opening || moment.end <= *opening) return;
+  const Part& part = result.sums->part();
+  const double begin = std::max(moment.begin, *opening);
+  const Estimate rate = discharge_rate(crossings, part, begin, moment.end);
+  const auto plain = [](double value) {
+    Estimate e;
+    e.value = value;
+    return e;
+  };
+  result.scalars.push_back({"discharge_rate", "1/s", rate});
+  result.scalars.push_back({"arched", "", plain(arched(crossings, part, begin, moment.end) ? 1 : 0)});
+  const Estimate beverloo = beverloo_rate(run, packing_before);
+  result.scalars.push_back({"beverloo_low", "1/s", plain(beverloo.low)});
+  result.scalars.push_back({"beverloo_high", "1/s", plain(beverloo.high)});
+  const double grain = numbers::pi / 6 * std::pow(run.diameter, 3);
+  result.plug_speed = rate.value * grain / (result.sums->mean("packing") * run.cross_section());
+  if (!(result.plug_speed > 0)) return;
+  const std::vector<double> volumes = zone_volumes(*result.sums, result.plug_speed);
+  const char* const names[] = {"zone_stagnant", "zone_plug", "zone_converging"};
+  for (std::size_t k = 0; k < volumes.size(); ++k) result.scalars.push_back({names[k], "m3", plain(volumes[k])});
+}
+
+}  // namespace
+
+AnalysisReport analyse(const AnalysisRequest& request) {
+  const AnalysedRun run = open_run(request.folder);
+  AnalysisReport report;
+  report.moments = make_moments(run, request.span);
+  Pictures pictures;
+  const SumsOfMoments sums = add_up(run, request, report.moments, pictures);
+  const std::vector<Crossing> crossings = read_crossings(run);
+  std::vector<MomentResult> results;
+  std::set<std::int64_t> frames;
+  for (std::size_t m = 0; m < report.moments.size(); ++m) {
+    frames.insert(report.moments[m].frames.begin(), report.moments[m].frames.end());
+    MomentResult result{report.moments[m], {}};
+    for (std::size_t p = 0; p < sums[m].size(); ++p) {
+      PartResult part{sums[m][p].get(), sums[m][p]->scalars(), 0};
+      add_discharge(part, run, report.moments[m], crossings, packing_before_opening(run, report.moments, sums, p));
+      result.parts.push_back(std::move(part));
+    }
+    results.push_back(std::move(result));
+  }
+  report.frames = frames.size();
+  std::error_code ignored;  // a folder that cannot be made shows when the first file is written
+  std::filesystem::create_directories(run.folder.results(), ignored);
+  const auto write = [&](const char* name, const std::string& text) {
+    if (text.empty()) return;
+    report.files.push_back(run.folder.results() + "/" + name);
+    write_text_file_atomically(report.files.back(), text);
+  };
+  write("scalars.csv", scalars_csv(results));
+  write("distributions.csv", distributions_csv(results));
+  write("radial.csv", radial_csv(results));
+  write("map.csv", map_csv(results));
+  write("slice.csv", pictures.slice);
+  write("network.csv", pictures.network);
+  write("cut.csv", pictures.cut);
+  double until = 0;
+  for (const Moment& m : report.moments) until = std::max(until, m.end);
+  if (run.scene.domain.outlet_height) write("flow.csv", flow_csv(run, crossings, until));
+  write("summary.json", summary_json(run, results));
+  return report;
+}
+
+}  // namespace wedge

@@ -1,0 +1,67 @@
+// moments.cpp: finds the frames of each moment.
+#include "apps/analysis/moments.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "apps/bed_table.hpp"
+#include "io/csv.hpp"
+#include "io/frame.hpp"
+
+namespace wedge {
+namespace {
+
+/// Adds the average over the frames in from < t <= to, and the last of them, where there are any.
+void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan span, bool average,
+              const std::vector<double>& times) {
+  const double slack = 1e-9 * std::max(1.0, std::abs(span.to));
+  Moment all{name + "_mean", true, span.from, span.to, {}};
+  for (std::size_t n = 0; n < times.size(); ++n)
+    if (times[n] > span.from + slack && times[n] <= span.to + slack)
+      all.frames.push_back(static_cast<std::int64_t>(n));
+  if (all.frames.empty()) return;
+  const double last = times[static_cast<std::size_t>(all.frames.back())];
+  moments.push_back({name, false, last, last, {all.frames.back()}});
+  if (average) moments.push_back(all);
+}
+
+}  // namespace
+
+std::vector<double> frame_times(const RunFolder& folder) {
+  std::vector<double> times;
+  for (std::int64_t n = 0; std::filesystem::exists(folder.frame("particles", n)); ++n)
+    times.push_back(read_particle_header(folder.frame("particles", n)).time);
+  if (times.empty()) throw FileError(folder.frames() + ": holds no frames of grains to analyse");
+  return times;
+}
+
+std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<TimeSpan>& span) {
+  const std::vector<double> times = frame_times(run.folder);
+  std::vector<Moment> moments;
+  if (span) {
+    const double before = span->from - 1e-9 * std::max(1.0, std::abs(span->to));  // a frame at `from` counts
+    add_span(moments, "window", {before - 2e-9, span->to}, true, times);
+    if (moments.empty())
+      throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
+                      number_text(span->to) + " s; they go from " + number_text(times.front()) + " to " +
+                      number_text(times.back()) + " s");
+    return moments;
+  }
+  double begin = -1e-6;  // a stage of no length still has the frame of its end
+  if (std::filesystem::exists(run.folder.beds())) {
+    const std::vector<StageResult> beds = read_bed_table(run.folder.beds());
+    for (std::size_t s = 0; s < beds.size() && s < run.scene.stages.size(); ++s) {
+      const double end = beds[s].quantities.front().value;
+      const bool timed = std::holds_alternative<UntilTime>(run.scene.stages[s].until);
+      add_span(moments, beds[s].stage, {begin, end}, timed, times);
+      begin = end;
+    }
+  }
+  if (moments.empty())
+    throw FileError(run.folder.path() + ": no stage has ended yet; name a span of time: wedge analyse " +
+                    run.folder.path() + " --from " + number_text(times.front()) + " --to " +
+                    number_text(times.back()));
+  return moments;
+}
+
+}  // namespace wedge

@@ -1,0 +1,35 @@
+// command_analyse.cpp: wedge analyse: measures a run and says where the results are.
+#include <cmath>
+#include <iostream>
+
+#include "apps/analysis/analyse.hpp"
+#include "apps/commands.hpp"
+#include "apps/threads.hpp"
+#include "core/parallel.hpp"
+#include "io/csv.hpp"
+
+namespace wedge {
+
+int command_analyse(const AnalyseArguments& arguments) {
+  set_thread_count(arguments.threads > 0 ? arguments.threads : usable_threads());
+  AnalysisRequest request;
+  request.folder = arguments.folder;
+  if (arguments.from || arguments.to)
+    request.span = TimeSpan{arguments.from.value_or(0), arguments.to.value_or(1e300)};
+  if (!arguments.orders.empty()) request.parts.orders = arguments.orders;
+  request.parts.wedges = arguments.wedges;
+  request.cut = arguments.cut;
+  const AnalysisReport report = analyse(request);
+  for (const Moment& m : report.moments) {
+    std::cout << m.name << ": ";
+    if (m.average)
+      std::cout << m.frames.size() << (m.frames.size() == 1 ? " frame, " : " frames, ") << number_text(m.begin)
+                << " to ";
+    std::cout << number_text(m.end) << " s\n";
+  }
+  std::cout << report.frames << (report.frames == 1 ? " frame" : " frames") << " read; written:\n";
+  for (const std::string& file : report.files) std::cout << "  " << file << '\n';
+  return exit_code::ok;
+}
+
+}  // namespace wedge
