@@ -34,6 +34,7 @@ enum FieldIndex {
   field_volume,
   field_cn,
   field_cn_near,
+  field_cn_distinct,
   field_mass,
   field_mvr,
   field_mvt,
@@ -48,7 +49,8 @@ enum StressIndex { stress_rr, stress_tt, stress_zz, stress_rz, stress_fields };
 
 /// Sums over bulk grains of a ring d/2 wide.
 struct Ring {
-  double grains = 0, cn = 0, cn_near = 0, vr = 0, vt = 0, vz = 0, squares = 0;  // squares: of v, m2/s2
+  double grains = 0, cn = 0, cn_near = 0, cn_distinct = 0, vr = 0, vt = 0, vz = 0,
+         squares = 0;  // squares: of v, m2/s2
 };
 
 /// Sums for a straight line y = slope x + intercept.
@@ -80,7 +82,8 @@ public:
   double mean(const std::string& scalar) const;
   /// Mean coordination number of bulk grains at arcs of core_arc and more; nan where there are none.
   double outer_cn() const;
-  /// What the paper's line says the coordination number is short of, as a factor, at r [m]: CN0 / (k arc + b).
+  /// What the paper's line says the number of distinct neighbours is short of, as a factor, at r [m]: CN0 / (k arc
+  /// + b).
   double correction(double r) const;
   /// r theta / d, nan in a slot.
   double arc(double r) const;
@@ -103,7 +106,8 @@ private:
   std::vector<Histogram> histograms_;
   std::vector<Ring> rings_;
   std::vector<double> fields_, stresses_;
-  LineSums inner_line_;  // CN against arc, arcs below core_arc
+  LineSums distinct_line_;  // the same of distinct neighbours
+  LineSums inner_line_;     // CN against arc, arcs below core_arc
   double outer_grains_ = 0, outer_sum_ = 0;
   double scatter_ = 0;  // of the angle of repose, last frame, deg
   double scatter_parts_ = 0;

@@ -9,10 +9,8 @@
 namespace wedge {
 namespace {
 
-constexpr int digits = 5;
-
-/// Appends ",value" with five digits, or "nan".
-void append_field(std::string& text, double value) {
+/// Appends ",value" with so many digits, or "nan".
+void append_field(std::string& text, double value, int digits = 5) {
   text += ',';
   if (!std::isfinite(value)) {
     text += "nan";
@@ -158,7 +156,7 @@ std::string map_csv(const std::vector<MomentResult>& results) {
           const double r = grid.across(column), corrected = c.cn * part.sums->correction(std::abs(r));
           for (const double value : {r, grid.up(row), c.grains, c.packing, c.cn, c.cn_near, corrected, c.velocity.x,
                                      c.velocity.y, c.velocity.z, c.prr, c.ptt, c.pzz, c.prz})
-            append_field(text, value);
+            append_field(text, value, 4);
           text +=
               "," +
               std::to_string(static_cast<int>(zone_of(c.packing, c.velocity.x, c.velocity.z, part.plug_speed))) +

@@ -35,7 +35,7 @@ struct CellFields {
 };
 CellFields cell_fields(const PartSums& sums, int column, int row);
 
-/// Text of each file. Numbers have five digits.
+/// Text of each file. Numbers have five digits, those of the map four.
 std::string scalars_csv(const std::vector<MomentResult>& results);
 std::string distributions_csv(const std::vector<MomentResult>& results);
 std::string radial_csv(const std::vector<MomentResult>& results);

@@ -1,5 +1,6 @@
 // summary.cpp: summary.json: domain, moments, cost and numbers of a run.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <variant>
@@ -8,6 +9,7 @@
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/json.hpp"
+#include "io/provenance.hpp"
 #include "io/scene_names.hpp"
 
 namespace wedge {
@@ -26,28 +28,27 @@ std::string list_of(const std::vector<std::string>& values) {
   return "[" + text + "]";
 }
 
+/// A number with six digits.
+std::string short_json(double value) {
+  if (!std::isfinite(value) || value == 0) return json_number(value);
+  char digits[40];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6);
+  return {digits, end.ptr};
+}
+
 JsonObject domain_object(const AnalysedRun& run) {
   const Domain& domain = run.scene.domain;
   JsonObject object;
-  object.add("scene", run.scene.name);
   object.add("kind", domain_kind_names.of(domain.kind));
-  object.add("angle_deg", 360.0 / run.order);
+  object.add_raw("angle_deg", short_json(360.0 / run.order));
   object.add("order", run.order);
   object.add("sides", sides_names.of(domain.sides));
   object.add("axis", axis_names.of(domain.axis));
-  object.add("diameter_m", run.diameter);
-  object.add("radius_m", run.radius);
-  object.add("orifice_m", orifice_diameter(run) > 0 ? orifice_diameter(run) : std::nan(""));
-  object.add("gravity_m_s2", run.gravity());
+  object.add_raw("diameter_m", short_json(run.diameter));
+  object.add_raw("radius_m", short_json(run.radius));
+  object.add_raw("orifice_m", orifice_diameter(run) > 0 ? short_json(orifice_diameter(run)) : "null");
+  object.add_raw("gravity_m_s2", short_json(run.gravity()));
   return object;
-}
-
-/// Number of a flat JSON object; nan where it has none.
-double number_in(const std::vector<std::pair<std::string, std::string>>& object, const std::string& key) {
-  double value = std::nan("");
-  for (const auto& [name, text] : object)
-    if (name == key && parse_number(text, value) != NumberError::none) value = std::nan("");
-  return value;
 }
 
 /// Integral of the grains inside over the steps, from series/ledger.csv.
@@ -73,18 +74,17 @@ double particle_steps(const AnalysedRun& run, double time_step) {
 
 JsonObject cost_object(const AnalysedRun& run, double grains) {
   JsonObject object;
-  object.add("grains", grains);
+  object.add_raw("grains", short_json(grains));
   object.add("precision", precision_names.of(run.scene.run.precision));
   if (!std::filesystem::exists(run.folder.progress())) return object;
-  const auto progress = parse_flat_json(read_text_file(run.folder.progress()), run.folder.progress());
-  const double seconds = number_in(progress, "wall_seconds"), step = number_in(progress, "time_step");
-  object.add("steps", number_in(progress, "step"));
-  object.add("simulated_s", number_in(progress, "time"));
-  object.add("wall_seconds", seconds);
+  const Progress progress = read_progress(run.folder.progress());
+  object.add("steps", progress.step);
+  object.add_raw("simulated_s", short_json(progress.time));
+  object.add_raw("wall_seconds", short_json(progress.wall_seconds));
   if (std::filesystem::exists(run.folder.series("ledger"))) {
-    const double steps = particle_steps(run, step);
-    object.add("particle_steps", std::round(steps));
-    object.add("particle_steps_per_second", std::round(steps / seconds));
+    const double steps = particle_steps(run, progress.time_step);
+    object.add_raw("particle_steps", short_json(steps));
+    object.add_raw("particle_steps_per_second", short_json(steps / progress.wall_seconds));
   }
   return object;
 }
@@ -92,10 +92,10 @@ JsonObject cost_object(const AnalysedRun& run, double grains) {
 JsonObject scalars_object(const PartResult& part) {
   JsonObject object;
   for (const Scalar& scalar : part.scalars) {
-    const auto number = [](double value) { return json_number(value); };
-    object.add_raw(scalar.name, "{\"value\": " + number(scalar.estimate.value) + ", \"low\": " +
-                                    number(scalar.estimate.low) + ", \"high\": " + number(scalar.estimate.high) +
-                                    ", \"unit\": " + json_string(scalar.unit) + "}");
+    const Estimate& e = scalar.estimate;
+    std::string value = "{\"value\": " + short_json(e.value);
+    if (std::isfinite(e.low)) value += ", \"low\": " + short_json(e.low) + ", \"high\": " + short_json(e.high);
+    object.add_raw(scalar.name, value + ", \"unit\": " + json_string(scalar.unit) + "}");
   }
   return object;
 }
@@ -109,9 +109,9 @@ std::string summary_json(const AnalysedRun& run, const std::vector<MomentResult>
   for (const MomentResult& result : results) {
     const Moment& m = result.moment;
     moments.push_back("{\"name\": " + json_string(m.name) + ", \"kind\": \"" + (m.average ? "mean" : "instant") +
-                      "\", \"begin_s\": " + json_number(m.begin) + ", \"end_s\": " + json_number(m.end) +
+                      "\", \"begin_s\": " + short_json(m.begin) + ", \"end_s\": " + short_json(m.end) +
                       ", \"frames\": " + std::to_string(m.frames.size()) + ", \"since_opening_s\": " +
-                      (opening && m.end > *opening ? json_number(m.end - *opening) : "null") + "}");
+                      (opening && m.end > *opening ? short_json(m.end - *opening) : "null") + "}");
     scalars.add_raw(m.name, value_of(scalars_object(result.parts.front())));
   }
   double grains = 0;

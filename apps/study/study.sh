@@ -13,22 +13,65 @@ shift
 
 state_of() { sed -n 's/.*"state": "\([a-z]*\)".*/\1/p' "$1/progress.json" 2>/dev/null || true; }
 
+# analysed RUN FOLDER: what of a run is wanted of its set: a full vessel's cores and wedges for the angles it is compared with.
+analysed() {
+  local angles=90,60,45,30
+  case $1 in angle/*) angles=180,120,90,72,60,45,36,30,24,20,15 ;; esac
+  "$WEDGE" analyse "$2" -j 1 --angles "$angles" --wedges 2 >>"$2.log" 2>&1
+}
+
+# rows FILE MOMENTS [PARTS]: the rows of these moments (and parts), expressions both, with the heading.
+rows() { awk -F, -v moment="^($2)$" -v part="^(${3:-.*})$" 'NR == 1 || ($1 ~ moment && $2 ~ part)' "$1"; }
+
+# reduced RUN FOLDER KEPT: puts what is kept of an analysed run into KEPT.
+reduced() {
+  local from=$2/results to=$3/results picture="" file
+  mkdir -p "$to"
+  cp "$2/scene.resolved.toml" "$3"
+  # Where this machine keeps things is nobody's business.
+  sed -e 's|"[^"]*/\([^"/]*\.toml\)"|"\1"|' -e "s|\"[^\"]*/$1\"|\"$1\"|" "$2/provenance.json" >"$3/provenance.json"
+  cp "$from/scalars.csv" "$to"
+  [ ! -e "$from/flow.csv" ] || cp "$from/flow.csv" "$to"
+  case $1 in
+    angle/*)
+      rows "$from/distributions.csv" flow_mean >"$to/distributions.csv"
+      rows "$from/radial.csv" flow_mean >"$to/radial.csv"
+      ;;
+    pile/*)
+      rows "$from/distributions.csv" "collapse|spread|pile" >"$to/distributions.csv"
+      rows "$from/radial.csv" "settle|collapse|pile" >"$to/radial.csv"
+      rows "$from/map.csv" "collapse|pile" >"$to/map.csv"
+      case $1 in *_s1) picture="collapse|spread|pile" ;; esac
+      ;;
+    *)
+      rows "$from/distributions.csv" "settle|open|flow_mean" >"$to/distributions.csv"
+      rows "$from/radial.csv" "settle|open|flow_mean" >"$to/radial.csv"
+      { rows "$from/map.csv" "settle|flow_mean"; rows "$from/map.csv" open whole | tail -n +2; } >"$to/map.csv"
+      case $1 in hopper40/*_s1) picture="open" ;; esac
+      ;;
+  esac
+  if [ -n "$picture" ]; then
+    for file in slice network cut; do rows "$from/$file.csv" "$picture" '.*' >"$to/$file.csv"; done
+  fi
+  cp "$from/summary.json" "$to"  # the last one: it says that the run is there
+}
+
 # one RUN SCENE SETTING...
 one() {
-  local name=$1 scene=$2 run=$folder/$1 settings=() word
+  local name=$1 scene=$2 run=$folder/$1 kept=$study/runs/$1 settings=() word
   shift 2
-  [ ! -e "$study/runs/$name/summary.json" ] || return 0
+  [ ! -e "$kept/results/summary.json" ] || return 0
   for word in "$@"; do settings+=(--set "${word//_d/ d}"); done
   mkdir -p "$(dirname "$run")"
   case $(state_of "$run") in
     finished) ;;
     "") rm -rf "$run"; "$WEDGE" run "$study/$scene.toml" -o "$run" -j 1 "${settings[@]}" >"$run.log" 2>&1 ;;
     *) "$WEDGE" resume "$run" -j 1 >>"$run.log" 2>&1 ;;
-  esac || { echo "$name: $(tail -n 1 "$run.log")"; return 0; }
-  rm -rf "$run/checkpoints"
-  echo "$name: made"
+  esac && analysed "$name" "$run" && reduced "$name" "$run" "$kept" || { echo "$name: $(tail -n 1 "$run.log")"; return 0; }
+  [ -n "${KEEP:-}" ] || rm -rf "$run"
+  echo "$name: done"
 }
-export -f one state_of
+export -f analysed one reduced rows state_of
 
 bash "$study/plan.sh" "$@" | xargs -P "${JOBS:-$(nproc)}" -d '\n' -I LINE \
   bash -c 'set -euo pipefail; read -ra words <<<"$1"; one "${words[@]}"' _ LINE
