@@ -22,6 +22,7 @@ std::vector<double> values_of(const BedGrain& g, bool forces) {
   const auto without = [](int cn) { return cn >= rattles_below ? cn : not_known; };
   return {static_cast<double>(g.cn),
           static_cast<double>(g.cn_near),
+          static_cast<double>(g.cn_distinct),
           without(g.cn),
           without(g.cn_near),
           g.velocity.x,
@@ -31,7 +32,7 @@ std::vector<double> values_of(const BedGrain& g, bool forces) {
           forces ? g.normal_force.y : not_known,
           forces ? g.normal_force.z : not_known};
 }
-constexpr std::size_t load_kind = 10;
+constexpr std::size_t load_kind = 11;
 
 }  // namespace
 
@@ -41,6 +42,7 @@ std::vector<DistributionKind> distribution_kinds(const AnalysedRun& run, double 
   const Bins speed{0.01 * std::sqrt(g * run.diameter), 0.1}, force{mean_mass * g, 0.1};
   return {{"cn", "", whole},
           {"cn_near", "", whole},
+          {"cn_distinct", "", whole},
           {"cn_without_rattlers", "", whole},
           {"cn_near_without_rattlers", "", whole},
           {"vr", "m/s", speed},
@@ -128,6 +130,7 @@ void PartSums::add_rings(const BedFrame& bed) {
     ring.grains += 1;
     ring.cn += g.cn;
     ring.cn_near += g.cn_near;
+    ring.cn_distinct += g.cn_distinct;
     ring.vr += g.velocity.x;
     ring.vt += g.velocity.y;
     ring.vz += g.velocity.z;
@@ -135,6 +138,7 @@ void PartSums::add_rings(const BedFrame& bed) {
     if (run_.slot) continue;
     if (arc(g.r) < core_arc) {
       inner_line_.add(arc(g.r), g.cn);
+      distinct_line_.add(arc(g.r), g.cn_distinct);
     } else {
       outer_grains_ += 1;
       outer_sum_ += g.cn;
@@ -150,9 +154,9 @@ void PartSums::add_fields_of(const BedFrame& bed) {
     const double m = g.mass;
     grains.across.push_back(run_.slot ? g.position.x : g.r);
     grains.up.push_back(g.position.z);
-    for (const double value :
-         {1.0, volume_of(g), static_cast<double>(g.cn), static_cast<double>(g.cn_near), m, m * v.x, m * v.y,
-          m * v.z, m * v.x * v.x, m * v.y * v.y, m * v.z * v.z, m * v.x * v.z})
+    for (const double value : {1.0, volume_of(g), static_cast<double>(g.cn), static_cast<double>(g.cn_near),
+                               static_cast<double>(g.cn_distinct), m, m * v.x, m * v.y, m * v.z, m * v.x * v.x,
+                               m * v.y * v.y, m * v.z * v.z, m * v.x * v.z})
       grains.values.push_back(value);
   }
   add_fields(grid_, grains, part_.copies, fields_);
@@ -339,6 +343,9 @@ std::vector<Scalar> PartSums::scalars() const {
   const auto [slope, intercept] = inner_line_.fit(std::max(1, frames_));
   add("cn_slope", slope);
   add("cn_intercept", intercept);
+  const auto [distinct_slope, distinct_intercept] = distinct_line_.fit(std::max(1, frames_));
+  add("cn_distinct_slope", distinct_slope);
+  add("cn_distinct_intercept", distinct_intercept);
   add("cn_slope_paper", plain(cn0 / 3 - 1));
   add("cn_intercept_paper", plain(4 - cn0 / 3));
   return all;

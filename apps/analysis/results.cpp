@@ -46,6 +46,7 @@ CellFields cell_fields(const PartSums& sums, int column, int row) {
   c.packing = f[field_volume] / frames;
   c.cn = f[field_cn] / f[field_count];
   c.cn_near = f[field_cn_near] / f[field_count];
+  c.cn_distinct = f[field_cn_distinct] / f[field_count];
   c.velocity = {f[field_mvr] / mass, f[field_mvt] / mass, f[field_mvz] / mass};
   const Vec3 v = c.velocity;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -118,7 +119,8 @@ std::string distributions_csv(const std::vector<MomentResult>& results) {
 
 std::string radial_csv(const std::vector<MomentResult>& results) {
   std::string text =
-      "moment,part,r [m],arc [d],grains,cn,cn_near,cn_corrected,vr [m/s],vt [m/s],vz [m/s],speed_spread [m/s]\n";
+      "moment,part,r [m],arc [d],grains,cn,cn_near,cn_distinct,cn_corrected,vr [m/s],vt [m/s],vz "
+      "[m/s],speed_spread [m/s]\n";
   for (const MomentResult& result : results) {
     for (const PartResult& part : result.parts) {
       const PartSums& sums = *part.sums;
@@ -126,12 +128,12 @@ std::string radial_csv(const std::vector<MomentResult>& results) {
         const Ring& ring = sums.rings()[k];
         if (!(ring.grains > 0)) continue;
         const double r = (static_cast<double>(k) + 0.5) * sums.ring_width(), n = ring.grains;
-        const double cn = ring.cn / n;
+        const double cn = ring.cn / n, distinct = ring.cn_distinct / n;
         const Vec3 v{ring.vr / n, ring.vt / n, ring.vz / n};
         text += place(result, part);
         for (const double value :
-             {r, sums.arc(r), n / sums.frames() * sums.part().copies, cn, ring.cn_near / n, cn * sums.correction(r),
-              v.x, v.y, v.z, std::sqrt(std::max(0.0, ring.squares / n - dot(v, v)))})
+             {r, sums.arc(r), n / sums.frames() * sums.part().copies, cn, ring.cn_near / n, distinct,
+              distinct * sums.correction(r), v.x, v.y, v.z, std::sqrt(std::max(0.0, ring.squares / n - dot(v, v)))})
           append_field(text, value);
         text += '\n';
       }
@@ -143,7 +145,8 @@ std::string radial_csv(const std::vector<MomentResult>& results) {
 std::string map_csv(const std::vector<MomentResult>& results) {
   constexpr double fewest = 0.05;  // grains: cells with less are left out
   std::string text =
-      "moment,part,r [m],z [m],grains,packing,cn,cn_near,cn_corrected,vr [m/s],vt [m/s],vz [m/s],prr [Pa],ptt "
+      "moment,part,r [m],z [m],grains,packing,cn,cn_near,cn_distinct,cn_corrected,vr [m/s],vt [m/s],vz [m/s],prr "
+      "[Pa],ptt "
       "[Pa],pzz [Pa],prz [Pa],zone\n";
   for (const MomentResult& result : results) {
     for (const PartResult& part : result.parts) {
@@ -153,9 +156,10 @@ std::string map_csv(const std::vector<MomentResult>& results) {
           const CellFields c = cell_fields(*part.sums, column, row);
           if (!(c.grains >= fewest)) continue;
           text += place(result, part);
-          const double r = grid.across(column), corrected = c.cn * part.sums->correction(std::abs(r));
-          for (const double value : {r, grid.up(row), c.grains, c.packing, c.cn, c.cn_near, corrected, c.velocity.x,
-                                     c.velocity.y, c.velocity.z, c.prr, c.ptt, c.pzz, c.prz})
+          const double r = grid.across(column), corrected = c.cn_distinct * part.sums->correction(std::abs(r));
+          for (const double value :
+               {r, grid.up(row), c.grains, c.packing, c.cn, c.cn_near, c.cn_distinct, corrected, c.velocity.x,
+                c.velocity.y, c.velocity.z, c.prr, c.ptt, c.pzz, c.prz})
             append_field(text, value, 4);
           text +=
               "," +

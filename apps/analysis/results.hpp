@@ -29,7 +29,7 @@ std::vector<double> zone_volumes(const PartSums& sums, double plug_speed);
 
 /// Fields of a cell in the units of map.csv.
 struct CellFields {
-  double grains = 0, packing = 0, cn = 0, cn_near = 0;
+  double grains = 0, packing = 0, cn = 0, cn_near = 0, cn_distinct = 0;
   Vec3 velocity;
   double prr = 0, ptt = 0, pzz = 0, prz = 0;
 };
