@@ -18,7 +18,7 @@ from page import Section, commands, page, provenance, short_path
 from read import find_runs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-MOST_ANGLES = 6  # a vessel with more angles is there for the study of the angle: it gets no gallery of its own
+MOST_ANGLES = 6  # a vessel with more angles, or without maps, is there for the study of the angle: it gets no gallery
 
 
 def hopper(section, v):
@@ -119,14 +119,17 @@ def study(vessels, comparisons):
 
 
 def overview(vessels):
-    rows = [[f'<a href="#{v.id}">{escape(v.title)}</a>' if v in chosen(vessels) else escape(v.title), escape(e.label),
-             escape(e.seeds()), grouped(round(v.count / e.order)), escape(", ".join(dict.fromkeys(m for r in e.runs for m in r.moments())))]
-            for v in vessels for e in v.ensembles]
-    return tables.table(["vessel", "ensemble", "seeds", "grains in the domain", "moments"], rows, "Vessels, ensembles and their seeds.")
+    rows = []
+    for v in vessels:
+        rows.append([f'<a href="#{v.id}">{escape(v.title)}</a>' if v in chosen(vessels) else escape(v.title)])
+        rows += [[escape(e.label), escape(e.seeds()), grouped(round(v.count / e.order)),
+                  escape(", ".join(dict.fromkeys(m for r in e.runs for m in r.moments())))] for e in v.ensembles]
+    return tables.table(["ensemble", "seeds", "grains in the domain", "moments"], rows, "Vessels, ensembles and their seeds.")
 
 
 def chosen(vessels):
-    few = [v for v in vessels if len({e.angle for e in v.main}) <= MOST_ANGLES]
+    few = [v for v in vessels if len({e.angle for e in v.main}) <= MOST_ANGLES
+           and any(run.table("map") is not None for e in v.ensembles for run in e.runs)]
     return few or vessels
 
 

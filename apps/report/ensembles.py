@@ -75,6 +75,11 @@ class Ensemble:
         found = [run.scalar(moment, quantity) for run in self.runs]
         return Sample([f[0] for f in found if f])
 
+    def arched(self, moment):
+        """How many runs had stopped at the end of a moment: words, or "" where none had."""
+        values = self.scalar(moment, "arched").values
+        return f"{int(values.sum())} of {len(values)} arched" if len(values) and values.sum() > 0 else ""
+
     def unit(self, moment, quantity):
         return next((f[3] for f in (run.scalar(moment, quantity) for run in self.runs) if f), "")
 

@@ -73,7 +73,7 @@ def draw(vessel, e, moment, grid, view, cmap, low, high, words, smooth=True):
     draw_walls(axes, e.runs[0].walls(moment), vessel.d)
     axes.set_xlabel("r / d")
     return Image(raster(figure, quality=88), f"Map of {words}, {e.label}, {vessel.when(moment)}, mean over {seeds(grid[3])}",
-                 f"{e.label}, {seeds(grid[3])}")
+                 ", ".join(part for part in (e.label, seeds(grid[3]), e.arched(moment)) if part))
 
 
 def seeds(n):
@@ -89,7 +89,7 @@ def maps(vessel, name, moment, paper=None):
     low, high = limits([g for _, g in grids], quantity.zero)
     view = view_of(vessel, [g for _, g in grids])
     images = [draw(vessel, e, moment, g, view, quantity.cmap, low, high, quantity.words) for e, g in grids]
-    images.append(scale_bar(quantity.cmap, low, high, f"{quantity.words}  {quantity.symbol}"))
+    images.append(scale_bar(quantity.cmap, low, high, f"{quantity.words}  {quantity.symbol}", extend="max" if quantity.zero else "both"))
     caption = (f"Moment: {vessel.when(moment)}. Coarse-grained field over (r, z), mean over the seeds named below each panel, drawn "
                f"with its mirror image; blank where the packing fraction is below {BED:g}. One scale for all panels." + quantity.more)
     return Figure(f"Map of {quantity.words}, {moment}", images, caption, paper, strip_layout(*view))
@@ -114,7 +114,7 @@ def differences(vessel, name, moment):
     top = float(np.quantile(spread, 0.97)) if len(spread) and spread.max() > 0 else 1.0
     view = view_of(vessel, [g for _, g in found])
     images = [draw(vessel, e, moment, g, view, DIVERGING, -top, top, f"{quantity.words}, less the full vessel") for e, g in found]
-    images.append(scale_bar(DIVERGING, -top, top, f"sector less full: {quantity.symbol}"))
+    images.append(scale_bar(DIVERGING, -top, top, f"sector less full: {quantity.symbol}", extend="both"))
     caption = (f"Moment: {vessel.when(moment)}. Field of the sector less that of the full vessel ({seeds(base[3])}), both means over "
                "their seeds: red where the sector has more.")
     return Figure(f"Map of {quantity.words}, {moment}, sector less full", images, caption, None, strip_layout(*view))

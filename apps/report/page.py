@@ -31,17 +31,18 @@ nav > ol > li { break-inside: avoid; margin-bottom: .5rem; }
 nav ol ol { list-style: none; padding-left: 0; font-size: .88rem; line-height: 1.4; }
 figure { margin: 1.4rem 0; padding: .9rem; background: #fff; color: #1b1f24; border: 1px solid var(--line); border-radius: 8px; }
 figure h3 { margin: 0 0 .5rem; font-size: 1.05rem; }
-figure small, figure .soft, figure figcaption { color: #57606a; }
+figure small, figure .soft, figure .caption, figure figcaption { color: #57606a; }
+figure .scroll, figure .scroll th { background: #fff; color: #1b1f24; border-color: #d5d9de; } figure .scroll td { border-color: #d5d9de; }
 .images { display: grid; gap: .5rem .7rem; align-items: start; }
-.strip .images { grid-template-columns: repeat(auto-fit, minmax(min(10.5rem, 44%), 1fr)); }
+.strip .images { grid-template-columns: repeat(auto-fit, minmax(min(10.5rem, 44%), 13rem)); justify-content: space-between; }
 .panels .images { grid-template-columns: repeat(auto-fill, minmax(min(18rem, 100%), 1fr)); }
 .curves .images { grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); }
 .wide .images { grid-template-columns: repeat(auto-fill, minmax(min(26rem, 100%), 1fr)); }
 .image { min-width: 0; text-align: center; }
 .image img { display: block; width: 100%; height: auto; margin: 0 auto; }
-.strip .image img { max-width: 17rem; } .panels .image img { max-width: 34rem; } .curves .image img, .wide .image img { max-width: 34rem; }
+.strip .image img { max-width: 13rem; } .panels .image img { max-width: 34rem; } .curves .image img, .wide .image img { max-width: 34rem; }
 .image span { display: block; font-size: .84rem; color: #3c444d; }
-.image.scale { grid-column: 1 / -1; } .image.scale img { max-width: 24rem; }
+.scale img { display: block; width: 100%; max-width: 25rem; height: auto; margin: .6rem auto 0; }
 figcaption { font-size: .88rem; line-height: 1.45; margin-top: .6rem; max-width: 56rem; }
 .paper { font-weight: 400; color: #57606a; font-size: .9rem; white-space: nowrap; }
 .scroll { overflow: auto; max-width: 100%; max-height: 34rem; margin: .8rem 0; border: 1px solid var(--line); border-radius: 8px;
@@ -49,9 +50,10 @@ figcaption { font-size: .88rem; line-height: 1.45; margin-top: .6rem; max-width:
 figure .scroll { margin: .8rem 0 0; }
 .scroll small { color: var(--soft); }
 table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums; width: 100%; }
-caption { text-align: left; padding: .5rem .7rem; color: var(--soft); font-size: .84rem; }
+.caption { color: var(--soft); font-size: .86rem; line-height: 1.45; margin: 1rem 0 .35rem; max-width: 56rem; } .caption + .scroll { margin-top: 0; }
 th, td { padding: .28rem .7rem; text-align: right; border-top: 1px solid var(--line); white-space: nowrap; vertical-align: top; }
 thead th { position: sticky; top: 0; background: var(--paper); border-top: 0; vertical-align: bottom; }
+tbody th { position: sticky; left: 0; background: var(--paper); } tbody .within { font-weight: 650; padding-top: .7rem; }
 tbody th, th:first-child, .words td, .words th { text-align: left; font-weight: 500; }
 .words td { white-space: normal; font-weight: 400; min-width: 6rem; }
 .words td:last-child { min-width: 16rem; }
@@ -60,7 +62,7 @@ pre { overflow: auto; max-height: 30rem; background: var(--paper); border: 1px s
   line-height: 1.45; }
 footer { padding: 2rem 1.1rem 3rem; color: var(--soft); font-size: .88rem; }
 @media (max-width: 40rem) { main, header, footer { padding-left: .7rem; padding-right: .7rem; } figure { padding: .6rem; }
-  nav > ol { columns: 1; } .strip .images { gap: .4rem .2rem; } }
+  nav > ol { columns: 1; } nav ol ol { display: none; } .strip .images { gap: .4rem .2rem; } }
 @media print { @page { size: A4; margin: 14mm 12mm; }
   :root { --ink: #000; --soft: #444; --line: #bbb; --paper: #fff; --ground: #fff; --accent: #000; }
   body { font-size: 9.5pt; background: #fff; } main, header, footer { max-width: none; padding: 0; } a { text-decoration: none; }
@@ -92,10 +94,12 @@ def figure_html(figure, id_, number):
     paper = f' <span class="paper">\u2014 as the paper\u2019s Fig. {figure.paper}</span>' if figure.paper else ""
     out = [f'<figure id="{id_}" class="{figure.layout}"><h3>Figure {number}. {escape(figure.title)}{paper}</h3><div class="images">']
     for image in figure.images:
-        scale = " scale" if image.alt.startswith("Colour scale") else ""
         label = f"<span>{escape(image.label)}</span>" if image.label else ""
-        out.append(f'<div class="image{scale}"><img src="{image.uri}" alt="{escape(image.alt)}">{label}</div>')
-    out.append(f"</div><figcaption>{escape(figure.caption)}</figcaption>{figure.extra}</figure>")
+        out.append(f'<div class="image"><img src="{image.uri}" alt="{escape(image.alt)}">{label}</div>')
+    out.append("</div>")
+    if figure.scale is not None:
+        out.append(f'<div class="scale"><img src="{figure.scale.uri}" alt="{escape(figure.scale.alt)}"></div>')
+    out.append(f"<figcaption>{escape(figure.caption)}</figcaption>{figure.extra}</figure>")
     return "".join(out)
 
 

@@ -132,8 +132,9 @@ class Run:
         self.diameter = self.grain_diameter(domain, particles)
         self.radius = domain.get("radius_m") or self.widest()
         self.orifice = domain.get("orifice_m") or self.plugged()
-        self.scene_name = domain.get("scene") or ("hopper" if self.orifice else "pile")
-        self.cost = self.summary.get("cost") or {}
+        self.scene_name = domain.get("scene") or ("slot" if self.kind == "slot" else "hopper" if self.orifice else "pile")
+        self.cost = dict(self.summary.get("cost") or {})
+        self.cost.setdefault("threads", self.provenance.get("threads"))
         self.count = int(particles.get("count") or (self.cost.get("grains") or 0) * self.order)
 
     @staticmethod

@@ -63,6 +63,8 @@ class Figure:
         self.title, self.caption, self.paper = title, caption, paper
         self.images = [image for image in images if image is not None]
         self.layout, self.extra = layout, extra
+        self.scale = next((image for image in self.images if image.alt.startswith("Colour scale")), None)
+        self.images = [image for image in self.images if image is not self.scale]
 
 
 def svg(figure):
@@ -117,12 +119,13 @@ def strip_layout(x_range, y_range):
     return "strip" if y_range[1] - y_range[0] > 1.4 * (x_range[1] - x_range[0]) else "panels"
 
 
-def scale_bar(cmap, low, high, label, ticks=None, names=None, boundaries=None):
+def scale_bar(cmap, low, high, label, ticks=None, names=None, boundaries=None, extend="neither"):
     """A colour scale by itself, lying."""
     figure = plt.figure(figsize=(4.2, 0.62))
     axes = figure.add_axes([0.05, 0.66, 0.9, 0.26])
     norm = BoundaryNorm(boundaries, cmap.N) if boundaries is not None else plt.Normalize(low, high)
-    bar = figure.colorbar(plt.cm.ScalarMappable(norm, cmap), cax=axes, orientation="horizontal", ticks=ticks)
+    bar = figure.colorbar(plt.cm.ScalarMappable(norm, cmap), cax=axes, orientation="horizontal", ticks=ticks,
+                          extend=extend)
     if names:
         bar.ax.set_xticklabels(names)
     bar.outline.set_linewidth(0.5)

@@ -9,10 +9,13 @@ from ensembles import grouped
 
 def table(head, rows, caption, first_is_name=True):
     """Rows of texts (already HTML) as a table in a box of its own that scrolls."""
-    out = ['<div class="scroll" tabindex="0"><table>', f"<caption>{caption}</caption>", "<thead><tr>"]
+    out = [f'<p class="caption">{caption}</p>', '<div class="scroll" tabindex="0"><table><thead><tr>']
     out += [f'<th scope="col">{h}</th>' for h in head]
     out.append("</tr></thead><tbody>")
     for row in rows:
+        if len(row) == 1:  # a heading within the table
+            out.append(f'<tr><th class="within" scope="rowgroup" colspan="{len(head)}">{row[0]}</th></tr>')
+            continue
         out.append("<tr>")
         for k, text in enumerate(row):
             out.append(f'<th scope="row">{text}</th>' if k == 0 and first_is_name else f"<td>{text}</td>")
