@@ -40,13 +40,13 @@ reduced() {
     pile/*)
       rows "$from/distributions.csv" "collapse|spread|pile" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|collapse|pile" >"$to/radial.csv"
-      rows "$from/map.csv" "collapse|pile" >"$to/map.csv"
+      { rows "$from/map.csv" pile; rows "$from/map.csv" "collapse|spread" whole | tail -n +2; } >"$to/map.csv"
       case $1 in *_s1) picture="collapse|spread|pile" ;; esac
       ;;
     *)
       rows "$from/distributions.csv" "settle|open|flow_mean" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|open|flow_mean" >"$to/radial.csv"
-      { rows "$from/map.csv" "settle|flow_mean"; rows "$from/map.csv" open whole | tail -n +2; } >"$to/map.csv"
+      { rows "$from/map.csv" flow_mean; rows "$from/map.csv" "settle|open" whole | tail -n +2; } >"$to/map.csv"
       case $1 in hopper40/*_s1) picture="open" ;; esac
       ;;
   esac
