@@ -32,11 +32,24 @@ Pool resampled(const std::vector<Sample>& runs, Draws& draws) {
   return pooling.pool();
 }
 
-Confidence interval_of(std::vector<double> values, double tail, Basis basis) {
+/// From resampled distances to distances without noise. The square of a distance grows by that of the noise: that
+/// of `value` did once, that of a resampled one, whose noise comes on top, twice. `n` as in tail_share.
+void take_noise_off(std::vector<double>& resampled, double value, double n) {
+  double squares = 0;
+  for (const double x : resampled) squares += x * x / real(resampled.size());
+  const double noise = std::max(0.0, squares - value * value);
+  for (double& x : resampled) x = std::sqrt(std::max(0.0, x * x - noise - noise * n / (n - 1)));
+}
+
+/// The interval that values resampled from n things leave.
+Confidence interval_of(std::vector<double> values, const Observable& o, Measure measure, double n, Basis basis) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); }),
                values.end());
   if (values.empty()) return {not_known, not_known, Basis::none};
+  if (measure != Measure::difference)
+    take_noise_off(values, distance(measure, o.bins, pool_of(o.reference), pool_of(o.compared)), n);
   std::sort(values.begin(), values.end());
+  const double tail = tail_share(n, n - 1);
   return {quantile(values, tail), quantile(values, 1 - tail), basis};
 }
 
@@ -49,7 +62,7 @@ Confidence over_seeds(const Observable& o, Measure measure) {
   }
   // The smaller set decides: sectors, of few grains, bring most of the noise, and may be the fewer.
   const double fewer = real(std::min(o.reference.size(), o.compared.size()));
-  return interval_of(values, tail_share(fewer, fewer - 1), Basis::seeds);
+  return interval_of(values, o, measure, fewer, Basis::seeds);
 }
 
 /// `pool` moved by how far one draw of wedges is from another; unknown where any of them is.
@@ -124,7 +137,7 @@ Confidence over_wedges(const Observable& o, Measure measure, const Design& desig
   }
   double count = 0;
   for (const auto* wedges : donors) count += real(wedges->size());
-  Confidence result = interval_of(values, tail_share(count, count - 1), Basis::wedges);
+  Confidence result = interval_of(values, o, measure, count, Basis::wedges);
   if (measure != Measure::difference) return result;
   // Sectors that scatter more than wedges do say so themselves.
   const double known = wedge_variance(donors, design.wedges_per_compared) / real(o.compared.size());

@@ -144,12 +144,13 @@ std::string legend_text(const std::vector<ComparisonRow>& rows) {
   for (const Basis basis : bases) text += (said++ > 0 ? "; " : "") + std::string(says[static_cast<int>(basis)]);
   text +=
       ".\n%: of the reference's value (scalars), standard deviation (distributions), root mean square (profiles "
-      "and maps).\nNoise alone makes a distance, and its interval, larger than 0: the yardstick says how large. "
-      "Beyond: outside of the yardstick's 95 %.\n";
+      "and maps).\n"
+      "Noise alone makes a distance larger than 0; the interval after it is that of the distance without noise.\n"
+      "Yardstick: what noise alone makes of sets of the full model as large as these. Beyond: outside of its 95 "
+      "%.\n";
   if (known > 0)
     text += std::to_string(beyond) + " of " + std::to_string(known) +
-            " rows with a yardstick are beyond; of sets that do not differ about " +
-            shown(std::ceil(0.05 * static_cast<double>(known)), 3) + " would be, by chance.\n";
+            " rows with a yardstick are beyond; where the sets do not differ one in twenty is, by chance.\n";
   return text;
 }
 

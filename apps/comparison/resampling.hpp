@@ -29,8 +29,9 @@ struct Confidence {
   double low = 0, high = 0;  // 95 %; nan: not known
   Basis basis = Basis::none;
 };
-/// Interval of distance(measure, reference, compared): over the runs where both sets have enough_seeds, else over
-/// the wedges of the reference runs, else (scalars) from spread and own intervals of the runs. README.md says how.
+/// Interval of the difference, or of the distance that the laws behind the runs have without noise: over the runs
+/// where both sets have enough_seeds, else over the wedges of the reference runs, else (scalars) from spread and
+/// own intervals of the runs. README.md says how.
 Confidence confidence(const Observable& observable, Measure measure, const Design& design);
 
 /// What the yardstick of a set can rest on.
