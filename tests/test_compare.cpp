@@ -264,7 +264,8 @@ TEST_CASE("95 % intervals of distances cover the distance of the laws, also wher
 TEST_CASE("What the yardstick of a set rests on") {
   const YardstickPlan eight = plan_yardstick(quarter, std::vector<std::size_t>(8, 4));
   CHECK(eight.pieces == 32);
-  CHECK(eight.widening == Approx(std::sqrt(32 / 31.0) * 2.03951 / 1.95996).epsilon(1e-4));  // t of 31 degrees
+  CHECK(eight.growth == Approx(std::sqrt(32 / 31.0)));
+  CHECK(eight.widening == Approx(2.03951 / 1.95996).epsilon(1e-4));  // t of 31 degrees of freedom
   CHECK(plan_yardstick(quarter, {4}).one_run);
   CHECK(plan_yardstick({true, 4, 4}, {4, 4, 0}).pieces == 3);
   CHECK(plan_yardstick({true, 1, 1}, {4}).why_not == "one reference run has no spread");

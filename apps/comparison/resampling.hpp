@@ -40,7 +40,10 @@ struct YardstickPlan {
   std::size_t pieces = 0;  // wedges of all reference runs or, where domains are alike, the runs
   std::size_t runs = 0;    // reference runs
   bool one_run = false;    // wedges are compared with wedges of the same run, which know nothing of other seeds
-  double widening = 1;     // of the drawn 95 %, since few pieces know the spread of all badly (as tail_share)
+  // Of n things drawn with replacement the mean scatters less than it should, and so few know the spread of all
+  // badly (as in tail_share).
+  double growth = 1;    // of all drawn noise, sqrt(n / (n - 1))
+  double widening = 1;  // of the 95 % about the median, t(n - 1) / 1.96
 };
 /// `wedges`: how many each reference run has.
 YardstickPlan plan_yardstick(const Design& design, const std::vector<std::size_t>& wedges);

@@ -42,7 +42,8 @@ YardstickPlan plan_yardstick(const Design& design, const std::vector<std::size_t
     plan.why_not = design.alike ? "one reference run has no spread" : "one wedge has no spread";
   if (!plan.why_not.empty()) return plan;
   const auto n = static_cast<double>(plan.pieces);
-  plan.widening = std::sqrt(n / (n - 1)) * student_95(n - 1) / student_95(std::numeric_limits<double>::infinity());
+  plan.growth = std::sqrt(n / (n - 1));
+  plan.widening = student_95(n - 1) / student_95(std::numeric_limits<double>::infinity());
   return plan;
 }
 
@@ -68,8 +69,12 @@ Yardstick yardstick(const Observable& o, Measure measure, const Design& design) 
   if (values.empty()) return {not_known, not_known, not_known};
   std::sort(values.begin(), values.end());
   const double median = quantile(values, 0.5), low = quantile(values, 0.025), high = quantile(values, 0.975);
-  if (measure != Measure::difference) return {median, low, plan.widening * high};
-  return {median, median + plan.widening * (low - median), median + plan.widening * (high - median)};
+  const bool signed_measure = measure == Measure::difference;
+  // All of a distance is noise and grows; a difference has a middle, which is not 0 where wedges are measured
+  // otherwise.
+  const double centre = signed_measure ? median : plan.growth * median, wider = plan.growth * plan.widening;
+  return {centre, signed_measure ? centre + wider * (low - median) : plan.growth * low,
+          centre + wider * (high - median)};
 }
 
 }  // namespace wedge
