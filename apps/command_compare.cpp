@@ -1,91 +1,16 @@
-// command_compare.cpp: wedge compare: what the beds of two sets of runs have in common, as a table.
+// command_compare.cpp: wedge compare: two sets of runs, their beds stage by stage and their analyses.
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <iostream>
-#include <limits>
-#include <map>
-#include <optional>
 
-#include "apps/bed_table.hpp"
 #include "apps/commands.hpp"
+#include "apps/comparison/bed_comparison.hpp"
+#include "apps/comparison/comparison_table.hpp"
 #include "apps/run_folder.hpp"
-#include "apps/text_table.hpp"
-#include "io/scene_diagnostics.hpp"
+#include "core/require.hpp"
+#include "io/atomic_file.hpp"
 
 namespace wedge {
 namespace {
-
-using Tables = std::vector<std::vector<StageResult>>;  // one per run
-
-Tables read_tables(const std::vector<std::string>& folders) {
-  Tables tables;
-  for (const std::string& folder : folders) {
-    const RunFolder run(folder);
-    run.require_run();
-    const bool measured = std::filesystem::exists(run.beds());  // not before the first stage has ended
-    tables.push_back(measured ? read_bed_table(run.beds()) : std::vector<StageResult>());
-  }
-  return tables;
-}
-
-const StageResult* find_stage(const std::vector<StageResult>& table, const std::string& stage) {
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const StageResult& s) { return s.stage == stage; });
-  return found == table.end() ? nullptr : &*found;
-}
-
-/// What the runs say about one quantity of a stage, where they say a number.
-std::vector<double> values(const Tables& tables, const std::string& stage, const BedQuantity& quantity) {
-  std::vector<double> found;
-  for (const auto& table : tables) {
-    const StageResult* row = find_stage(table, stage);
-    if (!row) continue;
-    for (const BedQuantity& q : row->quantities)
-      if (q.name == quantity.name && q.unit == quantity.unit && std::isfinite(q.value)) found.push_back(q.value);
-  }
-  return found;
-}
-
-double mean(const std::vector<double>& numbers) {
-  double sum = 0;
-  for (const double x : numbers) sum += x;
-  return numbers.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(numbers.size());
-}
-
-/// Standard deviation (with n - 1) of three and more, half of the range of two, not known for one.
-double spread(const std::vector<double>& numbers) {
-  if (numbers.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
-  if (numbers.size() == 2) return (*high - *low) / 2;
-  const double centre = mean(numbers);
-  double squares = 0;
-  for (const double x : numbers) squares += (x - centre) * (x - centre);
-  return std::sqrt(squares / static_cast<double>(numbers.size() - 1));
-}
-
-/// Four or five digits are enough to compare by eye.
-std::string shown(double value) {
-  if (!std::isfinite(value)) return "-";
-  if (value == 0) return "0";
-  const double digits = std::pow(10.0, 4 - std::floor(std::log10(std::abs(value))));
-  return short_number(std::isfinite(digits) && digits > 0 ? std::round(value * digits) / digits : value);
-}
-
-std::string percent(double reference, double other) {
-  if (!std::isfinite(reference) || !std::isfinite(other)) return "-";
-  if (reference == other) return "0.00";
-  if (reference == 0) return "-";
-  const double change = 100 * (other - reference) / std::abs(reference);
-  char text[32];
-  if (std::abs(change) < 1e4) {
-    const auto hundredths = std::llround(100 * std::abs(change));
-    std::snprintf(text, sizeof text, "%c%lld.%02lld", change < 0 ? '-' : '+', hundredths / 100, hundredths % 100);
-  } else {
-    std::snprintf(text, sizeof text, "%c%lld", change < 0 ? '-' : '+', std::llround(std::abs(change)));
-  }
-  return text;
-}
 
 std::string runs_text(const std::vector<std::string>& folders) {
   std::string text;
@@ -93,53 +18,89 @@ std::string runs_text(const std::vector<std::string>& folders) {
   return text + (folders.size() == 1 ? "  (1 run)" : "  (" + std::to_string(folders.size()) + " runs)");
 }
 
-void print_stage(const StageResult& stage, const Tables& reference, const Tables& with) {
-  TextTable table;
-  table.row({"", "reference", "spread", "compared", "difference [%]"});
-  for (const BedQuantity& quantity : stage.quantities) {
-    const std::vector<double> first = values(reference, stage.stage, quantity);
-    const std::vector<double> second = values(with, stage.stage, quantity);
-    table.row({quantity.name + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]"), shown(mean(first)),
-               shown(spread(first)), shown(mean(second)), percent(mean(first), mean(second))});
+/// The runs that are analysed; says what of the others is missing.
+std::vector<RunResults> analysed_runs(const std::vector<std::string>& folders, bool demanded) {
+  std::vector<RunResults> runs;
+  for (const std::string& folder : folders) {
+    RunResults run = read_domain(folder);
+    if (analysed(run)) {
+      for (const std::string& file : run.missing)
+        std::cout << folder << ": there is no results/" << file << ": what it tells of this run is left out\n";
+      runs.push_back(std::move(run));
+      continue;
+    }
+    const std::string says = folder + ": is not analysed: wedge analyse " + folder;
+    if (demanded) throw FileError(says);
+    std::cout << says << '\n';
   }
-  std::cout << "\nstage " << stage.stage << '\n' << table.text("  ");
+  return runs;
 }
 
-/// Every stage that some run finished, in the order of the runs, and how many of each set finished it.
-void print_stages(const Tables& reference, const Tables& with) {
-  std::vector<StageResult> stages;
-  for (const Tables* tables : {&reference, &with})
-    for (const auto& table : *tables)
-      for (const StageResult& stage : table)
-        if (!find_stage(stages, stage.stage)) stages.push_back(stage);
-  for (const StageResult& stage : stages) {
-    const auto finished = [&](const Tables& tables) {
-      return std::count_if(tables.begin(), tables.end(),
-                           [&](const auto& table) { return find_stage(table, stage.stage) != nullptr; });
-    };
-    print_stage(stage, reference, with);
-    const auto first = finished(reference), second = finished(with);
-    if (first != static_cast<std::ptrdiff_t>(reference.size()) ||
-        second != static_cast<std::ptrdiff_t>(with.size()))
-      std::cout << "  finished by " << first << " of " << reference.size() << " reference and " << second << " of "
-                << with.size() << " compared runs\n";
+int usage(const std::string& problem) {
+  std::cerr << "wedge: " << problem << '\n';
+  return exit_code::usage;
+}
+
+/// What is wrong with a set whose runs have different domains; "" for a sound one.
+std::string mixture(const std::vector<RunResults>& runs, const std::string& set) {
+  for (const RunResults& run : runs)
+    if (run.order != runs[0].order || run.slot != runs[0].slot)
+      return "the " + set + " runs are of different domains: " + runs[0].folder + " (" +
+             (runs[0].slot ? "slot" : angle_text(runs[0].order) + " degrees") + ") and " + run.folder + " (" +
+             (run.slot ? "slot" : angle_text(run.order) + " degrees") + "); compare one angle at a time";
+  return "";
+}
+
+/// 360 degrees / angle of the wedges that serve: those of the compared sector or, for two sets of full vessels,
+/// which need them for intervals only, the widest there are.
+int wedges_wanted(const RunSets& sets) {
+  const RunResults &reference = sets.reference[0], &compared = sets.compared[0];
+  if (reference.slot || compared.slot || reference.order > 1) return 0;
+  return compared.order > 1 ? compared.order : widest_wedges(reference);
+}
+
+int compare_analyses(RunSets& sets, const CompareOptions& options) {
+  for (const std::string& problem : {mixture(sets.reference, "reference"), mixture(sets.compared, "compared")})
+    if (!problem.empty()) return usage(problem);
+  sets.wedge_order = wedges_wanted(sets);
+  for (auto* set : {&sets.reference, &sets.compared})
+    for (RunResults& run : *set) read_results(run, sets.wedge_order);
+  std::vector<std::string> moments = common_moments(sets);
+  if (!options.moment.empty()) {
+    if (std::find(moments.begin(), moments.end(), options.moment) == moments.end())
+      return usage("--moment " + options.moment + ": both sets do not have it; " +
+                   suggestion(options.moment, moments));
+    moments = {options.moment};
   }
-  if (stages.empty()) std::cout << "\nno run has finished a stage yet\n";
+  std::cout << sets_text(sets);
+  if (moments.empty()) std::cout << "the analyses have no moment in common\n";
+  std::vector<ComparisonRow> rows;
+  for (const std::string& moment : moments) {
+    const std::vector<ComparisonRow> of_moment = compare(sets, moment);
+    std::cout << moment_text(moment, of_moment) << std::flush;
+    rows.insert(rows.end(), of_moment.begin(), of_moment.end());
+  }
+  std::cout << legend_text(rows);
+  if (!options.csv.empty()) write_text_file_atomically(options.csv, comparison_csv(rows));
+  if (options.tolerance.empty()) return exit_code::ok;
+  const Judgement judgement = judge(rows, read_tolerances(options.tolerance));
+  std::cout << judgement_text(judgement, options.tolerance);
+  return judgement.breaches.empty() ? exit_code::ok : exit_code::tolerance;
 }
 
 }  // namespace
 
-int command_compare(const std::vector<std::string>& reference, const std::vector<std::string>& with) {
-  const Tables first = read_tables(reference), second = read_tables(with);
+int command_compare(const std::vector<std::string>& reference, const std::vector<std::string>& with,
+                    const CompareOptions& options) {
+  if (!options.tolerance.empty())
+    read_tolerances(options.tolerance);  // its mistakes are told before the long tables
   std::cout << "reference: " << runs_text(reference) << "\ncompared:  " << runs_text(with) << '\n';
-  print_stages(first, second);
-  std::cout << "\nNumbers are those of the whole vessel, means over the runs, at the end of each stage. Spread: "
-            << (reference.size() == 1
-                    ? "not known from one run; several seeds give it: wedge run SCENE.toml -o FOLDER "
-                      "--set particles.seed=2, and name all folders"
-                : reference.size() == 2 ? "half of the range of the two reference runs"
-                                        : "standard deviation of the reference runs")
-            << ".\nDistributions, maps and tolerances come with `wedge analyse`, which is not built yet.\n";
+  print_bed_comparison(reference, with);
+  std::cout << '\n';
+  const bool demanded = !options.tolerance.empty() || !options.csv.empty() || !options.moment.empty();
+  RunSets sets{analysed_runs(reference, demanded), analysed_runs(with, demanded), 0};
+  if (!sets.reference.empty() && !sets.compared.empty()) return compare_analyses(sets, options);
+  std::cout << "Distributions, profiles, maps and intervals are compared once runs of both sets are analysed.\n";
   return exit_code::ok;
 }
 

@@ -24,8 +24,8 @@ const char* const examples =
     "  wedge status full\n"
     "  wedge resume full --wall-time 12:00:00\n"
     "  wedge analyse full --wedges 2\n"
-    "  wedge compare full --with sector90\n"
-    "  wedge report full sector90 -o page.html\n"
+    "  wedge compare full_1 full_2 --with sector90_1 sector90_2 --csv table.csv\n"
+    "  wedge report full_1 full_2 sector90_1 sector90_2 --compare table.csv -o page.html\n"
     "  wedge export sector90 --last --to csv --unfold -o state.csv\n"
     "  wedge export full --frame 3 --to vtp --vessel\n"
     "Exit codes: 0 ok, 1 internal error, 2 usage, 3 scene, 4 file or disk, 5 physics, 6 outside tolerance,\n"
@@ -193,10 +193,14 @@ private:
     folder_option(command("status", "Say in one line how far a run is, also while it runs",
                           [this] { return command_status(run_.folder); }),
                   run_.folder);
-    CLI::App* compare = command("compare", "Compare the beds of two sets of runs, stage by stage",
-                                [this] { return command_compare(reference_, with_); });
+    CLI::App* compare = command("compare", "Compare two sets of runs: their beds and their analyses",
+                                [this] { return command_compare(reference_, with_, compare_); });
     compare->add_option("REF", reference_, "folders of the reference runs")->required();
     compare->add_option("--with", with_, "folders of the runs to compare")->required()->type_name("RUN");
+    compare->add_option("--csv", compare_.csv, "write every row of the comparison of analyses")->type_name("FILE");
+    compare->add_option("--tolerance", compare_.tolerance, "bounds (TOML); exit code 6 where a row is outside")
+        ->type_name("FILE");
+    compare->add_option("--moment", compare_.moment, "compare analyses of this moment only")->type_name("NAME");
   }
   void add_analyse() {
     CLI::App* analyse = command("analyse", "Measure a run: everything of apps/analysis/README.md, into DIR/results",
@@ -279,6 +283,7 @@ private:
   ReportArguments report_;
   std::string name_;
   std::vector<std::string> reference_, with_;
+  CompareOptions compare_;
   long frame_ = -1;
 };
 

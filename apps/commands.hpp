@@ -56,6 +56,13 @@ struct ReportArguments {
 };
 int command_report(const ReportArguments&);
 int command_new(const std::string& name);
-int command_compare(const std::vector<std::string>& reference, const std::vector<std::string>& with);
+
+struct CompareOptions {
+  std::string csv;        // file for all rows
+  std::string tolerance;  // TOML file: exit code 6 where a row is outside
+  std::string moment;     // only this one
+};
+int command_compare(const std::vector<std::string>& reference, const std::vector<std::string>& with,
+                    const CompareOptions& options = {});
 
 }  // namespace wedge

@@ -35,12 +35,10 @@ double AnalysedRun::cross_section() const {
   return slot ? 2 * radius * scene.domain.slot_width : numbers::pi * radius * radius;
 }
 
-AnalysedRun open_run(const std::string& folder) {
-  RunFolder files(folder);
-  files.require_run();
-  Scene scene = read_scene(files.resolved_scene(), {});
+AnalysedRun describe_run(const RunFolder& folder, Scene scene, double diameter) {
   const State domain = make_domain(scene);
-  AnalysedRun run{files, std::move(scene), domain.symmetry};
+  AnalysedRun run{folder, std::move(scene), domain.symmetry};
+  run.diameter = diameter;
   run.slot = run.scene.domain.kind == DomainKind::slot;
   run.order = run.scene.domain.kind == DomainKind::sector ? run.scene.domain.order : 1;
   run.theta = 2 * numbers::pi / run.order;
@@ -52,16 +50,24 @@ AnalysedRun open_run(const std::string& folder) {
       low = std::min(low, point.y());
     }
   }
-  if (!(right > 0)) throw FileError(files.resolved_scene() + ": has no walls; a vessel is needed to analyse a run");
+  if (!(right > 0))
+    throw FileError(folder.path() + ": the scene has no walls; a vessel is needed to analyse a run");
   run.left = run.slot ? left : 0;
   run.radius = run.slot ? (right - left) / 2 : right;
   run.lowest_wall = low;
-  const Particles first = read_particle_frame(files.frame("particles", 0)).particles;
+  return run;
+}
+
+AnalysedRun open_run(const std::string& folder) {
+  const RunFolder files(folder);
+  files.require_run();
+  const std::string start = files.frame("particles", 0);
+  if (!std::filesystem::exists(start)) throw FileError(files.frames() + ": holds no frames of grains to analyse");
+  const Particles first = read_particle_frame(start).particles;
   double sum = 0;
   for (Index i = 0; i < first.count(); ++i) sum += 2 * first.radius[static_cast<std::size_t>(i)];
   if (first.count() == 0) throw FileError(files.path() + ": the run has no grains at its start");
-  run.diameter = sum / first.count();
-  return run;
+  return describe_run(files, read_scene(files.resolved_scene(), {}), sum / first.count());
 }
 
 bool Part::holds(double azimuth) const {

@@ -32,6 +32,9 @@ struct AnalysedRun {
   double gravity() const { return scene.domain.gravity.norm(); }
 };
 
+/// The run of a scene with walls, without looking into its folder. `diameter` [m]: mean of its grains. Throws
+/// FileError when there is no wall.
+AnalysedRun describe_run(const RunFolder& folder, Scene scene, double diameter);
 /// Throws FileError when the folder holds no run or a run without frames.
 AnalysedRun open_run(const std::string& folder);
 

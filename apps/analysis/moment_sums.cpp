@@ -139,7 +139,7 @@ void PartSums::add_rings(const BedFrame& bed) {
     if (arc(g.r) < core_arc) {
       inner_line_.add(arc(g.r), g.cn);
       distinct_line_.add(arc(g.r), g.cn_distinct);
-    } else {
+    } else if (g.r < run_.radius - 2 * run_.diameter) {
       outer_grains_ += 1;
       outer_sum_ += g.cn;
     }

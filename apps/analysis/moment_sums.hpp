@@ -80,7 +80,8 @@ public:
   /// Means over frames of what each frame has, and fits over all of them.
   std::vector<Scalar> scalars() const;
   double mean(const std::string& scalar) const;
-  /// Mean coordination number of bulk grains at arcs of core_arc and more; nan where there are none.
+  /// Mean coordination number of bulk grains at arcs of core_arc and more, but not within 2 d of the widest wall;
+  /// nan where there are none.
   double outer_cn() const;
   /// What the paper's line says the number of distinct neighbours is short of, as a factor, at r [m]: CN0 / (k arc
   /// + b).

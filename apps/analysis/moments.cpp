@@ -1,8 +1,9 @@
 // moments.cpp: finds the frames of each moment.
 #include "apps/analysis/moments.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "apps/bed_table.hpp"
 #include "io/csv.hpp"
@@ -11,17 +12,30 @@
 namespace wedge {
 namespace {
 
-/// Adds the average over the frames in from < t <= to, and the last of them, where there are any.
+/// Adds the average over the frames in from < t <= to, and the last of them, where there are any. A frame that
+/// comes less than `apart` [s] after another shows the same again and is left out of the average.
 void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan span, bool average,
-              const std::vector<double>& times) {
-  const double slack = 1e-9 * std::max(1.0, std::abs(span.to));
+              const std::vector<double>& times, double apart) {
   Moment all{name + "_mean", true, span.from, span.to, {}};
-  for (std::size_t n = 0; n < times.size(); ++n)
-    if (times[n] > span.from + slack && times[n] <= span.to + slack)
-      all.frames.push_back(static_cast<std::int64_t>(n));
-  if (all.frames.empty()) return;
-  const double last = times[static_cast<std::size_t>(all.frames.back())];
-  moments.push_back({name, false, last, last, {all.frames.back()}});
+  std::int64_t last = -1;
+  double before = -std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    const double time =
+        times[n] - 1e-9 * std::max(1.0, times[n]);  // of a step that lands on the mark up to round-off
+    if (time > span.to) break;
+    if (time <= span.from) {
+      before = times[n];
+      continue;
+    }
+    last = static_cast<std::int64_t>(n);
+    if (times[n] - before < apart) continue;
+    all.frames.push_back(last);
+    before = times[n];
+  }
+  if (last < 0) return;
+  if (all.frames.empty()) all.frames.push_back(last);
+  const double end = times[static_cast<std::size_t>(last)];
+  moments.push_back({name, false, end, end, {last}});
   if (average) moments.push_back(all);
 }
 
@@ -37,10 +51,11 @@ std::vector<double> frame_times(const RunFolder& folder) {
 
 std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<TimeSpan>& span) {
   const std::vector<double> times = frame_times(run.folder);
+  const double apart = 0.01 * run.scene.output.frames_every;
   std::vector<Moment> moments;
   if (span) {
-    const double before = span->from - 1e-9 * std::max(1.0, std::abs(span->to));  // a frame at `from` counts
-    add_span(moments, "window", {before - 2e-9, span->to}, true, times);
+    const double from = span->from - 2e-9 * std::max(1.0, span->from);  // a frame at `from` counts
+    add_span(moments, "window", {from, std::min(span->to, times.back())}, true, times, apart);
     if (moments.empty())
       throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
                       number_text(span->to) + " s; they go from " + number_text(times.front()) + " to " +
@@ -53,7 +68,7 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<Tim
     for (std::size_t s = 0; s < beds.size() && s < run.scene.stages.size(); ++s) {
       const double end = beds[s].quantities.front().value;
       const bool timed = std::holds_alternative<UntilTime>(run.scene.stages[s].until);
-      add_span(moments, beds[s].stage, {begin, end}, timed, times);
+      add_span(moments, beds[s].stage, {begin, end}, timed, times, apart);
       begin = end;
     }
   }

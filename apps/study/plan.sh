@@ -31,7 +31,7 @@ hopper40() {  # the paper's
   done; done
 }
 sides() {  # what bounds a sector, in the vessel of set hopper20
-  for seed in 1 2 3 4 5 6; do
+  for seed in 1 2 3 4; do
     for angle in 90 45; do
       for sides in rigid frictionless; do
         echo "sides/a${angle}_${sides}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.sides=$sides particles.seed=$seed"

@@ -30,23 +30,25 @@ reduced() {
   cp "$2/scene.resolved.toml" "$3"
   # Where this machine keeps things is nobody's business.
   sed -e 's|"[^"]*/\([^"/]*\.toml\)"|"\1"|' -e "s|\"[^\"]*/$1\"|\"$1\"|" "$2/provenance.json" >"$3/provenance.json"
-  cp "$from/scalars.csv" "$to"
   [ ! -e "$from/flow.csv" ] || cp "$from/flow.csv" "$to"
   case $1 in
     angle/*)
+      rows "$from/scalars.csv" "settle|flow_mean" >"$to/scalars.csv"
       rows "$from/distributions.csv" flow_mean >"$to/distributions.csv"
       rows "$from/radial.csv" flow_mean >"$to/radial.csv"
       ;;
     pile/*)
+      rows "$from/scalars.csv" "settle|collapse|spread|pile" >"$to/scalars.csv"
       rows "$from/distributions.csv" "collapse|spread|pile" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|collapse|pile" >"$to/radial.csv"
-      rows "$from/map.csv" "collapse|pile" >"$to/map.csv"
+      { rows "$from/map.csv" pile; rows "$from/map.csv" "collapse|spread" whole | tail -n +2; } >"$to/map.csv"
       case $1 in *_s1) picture="collapse|spread|pile" ;; esac
       ;;
     *)
+      rows "$from/scalars.csv" "settle|open|flow_mean" >"$to/scalars.csv"
       rows "$from/distributions.csv" "settle|open|flow_mean" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|open|flow_mean" >"$to/radial.csv"
-      { rows "$from/map.csv" "settle|flow_mean"; rows "$from/map.csv" open whole | tail -n +2; } >"$to/map.csv"
+      { rows "$from/map.csv" flow_mean; rows "$from/map.csv" "settle|open" whole | tail -n +2; } >"$to/map.csv"
       case $1 in hopper40/*_s1) picture="open" ;; esac
       ;;
   esac

@@ -1,0 +1,162 @@
+// observables.cpp: scalars and distributions of two sets of runs as samples; moments; domains.
+#include "apps/comparison/observables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/comparison/field_observables.hpp"
+#include "apps/comparison/gathered.hpp"
+
+namespace wedge {
+namespace {
+
+constexpr double normal_95 = 1.959963984540054;
+
+Sample scalar_sample(double value) { return {Eigen::ArrayXd::Constant(1, value), Eigen::ArrayXd::Ones(1)}; }
+
+/// A run's own standard error, of its interval.
+double own_error(const ScalarResult& scalar) { return (scalar.high - scalar.low) / (2 * normal_95); }
+
+Observable scalar(const RunSets& sets, const ResultName& name) {
+  Observable o;
+  o.kind = Kind::scalar;
+  const auto gathered = gather<ScalarResult>(sets, [&](const RunResults& run, const std::string& part) {
+    const auto found = run.scalars.find({name.moment, part, name.region, name.quantity});
+    return found == run.scalars.end() || !std::isfinite(found->second.value) ? nullptr : &found->second;
+  });
+  for (const auto& run : gathered.reference) {
+    std::vector<Sample> wedges;
+    for (const ScalarResult* wedge : run.wedges) wedges.push_back(scalar_sample(wedge->value));
+    if (!run.whole && wedges.empty()) continue;
+    // What only sectors and wedges have (the slope of CN against the arc): a vessel is then its wedges.
+    o.reference.push_back(run.whole ? scalar_sample(run.whole->value) : scalar_sample(pool_of(wedges).value[0]));
+    o.reference_errors.push_back(run.whole ? own_error(*run.whole) : std::nan(""));
+    o.wedges.push_back(std::move(wedges));
+    o.unit = run.whole ? run.whole->unit : run.wedges[0]->unit;
+  }
+  for (const ScalarResult* run : gathered.compared) {
+    o.compared.push_back(scalar_sample(run->value));
+    o.compared_errors.push_back(own_error(*run));
+  }
+  return o;
+}
+
+/// Edges of all, each once: those of one scale differ by rounding at most.
+Eigen::ArrayXd common_edges(const std::vector<const DistributionResult*>& all) {
+  std::vector<double> edges;
+  for (const DistributionResult* one : all) edges.insert(edges.end(), one->edges.begin(), one->edges.end());
+  std::sort(edges.begin(), edges.end());
+  const double rounding = 1e-12 * (edges.back() - edges.front());
+  edges.erase(std::unique(edges.begin(), edges.end(), [&](double a, double b) { return b - a <= rounding; }),
+              edges.end());
+  return Eigen::Map<Eigen::ArrayXd>(edges.data(), static_cast<Eigen::Index>(edges.size()));
+}
+
+/// Grains below each of `edges`, in proportion inside a bin.
+Sample distribution_sample(const DistributionResult& distribution, const Eigen::ArrayXd& edges) {
+  Sample sample{Eigen::ArrayXd(edges.size()), Eigen::ArrayXd::Constant(edges.size(), distribution.counts.sum())};
+  double below = 0;  // grains in the bins before bin b
+  Eigen::Index b = 0;
+  for (Eigen::Index k = 0; k < edges.size(); ++k) {
+    while (b < distribution.counts.size() && edges[k] >= distribution.edges[b + 1])
+      below += distribution.counts[b++];
+    double inside = 0;
+    if (b < distribution.counts.size() && edges[k] > distribution.edges[b])
+      inside = (edges[k] - distribution.edges[b]) / (distribution.edges[b + 1] - distribution.edges[b]);
+    sample.content[k] = below + (inside > 0 ? inside * distribution.counts[b] : 0);
+  }
+  return sample;
+}
+
+/// `region` is all, core or rest; files name the last two with the angle.
+Observable distribution(const RunSets& sets, const ResultName& name, const std::string& region) {
+  Observable o;
+  o.kind = Kind::distribution;
+  const std::string named = region == "all" ? region : region + "_" + angle_text(sets.compared[0].order);
+  std::vector<const DistributionResult*> all;
+  const auto gathered = gather<DistributionResult>(sets, [&](const RunResults& run, const std::string& part) {
+    const auto found = run.distributions.find({name.moment, part, named, name.quantity});
+    const bool told = found != run.distributions.end() && found->second.counts.sum() > 0;
+    if (told) all.push_back(&found->second);
+    return told ? &found->second : nullptr;
+  });
+  if (all.empty()) return o;
+  o.unit = all[0]->unit;
+  o.bins = {common_edges(all), all[0]->whole_numbers};
+  const auto sample = [&](const DistributionResult* one) { return distribution_sample(*one, o.bins.edges); };
+  put_samples(gathered, sample, o);
+  return o;
+}
+
+template <class T>
+void append_missing(std::vector<T>& list, const T& entry) {
+  if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
+}
+
+/// Quantities of a moment in the order of the files.
+std::vector<std::string> quantities(const std::vector<RunResults>& runs, const std::string& moment,
+                                    std::vector<ResultName> RunResults::*names) {
+  std::vector<std::string> found;
+  for (const RunResults& run : runs)
+    for (const ResultName& name : run.*names)
+      if (name.moment == moment) append_missing(found, name.quantity);
+  return found;
+}
+
+}  // namespace
+
+Design design_of(const RunSets& sets) {
+  const RunResults &reference = sets.reference[0], &compared = sets.compared[0];
+  Design design;
+  design.alike = reference.slot == compared.slot && reference.order == compared.order;
+  if (sets.wedge_order > 0) {
+    design.wedges_per_reference = std::max(1, sets.wedge_order / reference.order);
+    design.wedges_per_compared = std::max(1, sets.wedge_order / compared.order);
+  }
+  return design;
+}
+
+bool has_core(const RunSets& sets) { return !sets.compared[0].slot && sets.compared[0].order > 1; }
+
+double core_radius(const RunSets& sets) {
+  const double turn = 2 * std::acos(-1.0);
+  return has_core(sets) ? 4 * sets.compared[0].diameter * sets.compared[0].order / turn : 0;
+}
+
+std::vector<std::string> common_moments(const RunSets& sets) {
+  std::vector<std::string> first, both;
+  for (const RunResults& run : sets.reference)
+    for (const std::string& moment : run.moments) append_missing(first, moment);
+  for (const std::string& moment : first)
+    if (std::any_of(sets.compared.begin(), sets.compared.end(), [&](const RunResults& run) {
+          return std::find(run.moments.begin(), run.moments.end(), moment) != run.moments.end();
+        }))
+      both.push_back(moment);
+  return both;
+}
+
+std::vector<Observable> observables(const RunSets& sets, const std::string& moment) {
+  std::vector<Observable> all;
+  const auto keep = [&](Observable o, const std::string& region, const std::string& quantity) {
+    if (o.reference.empty() || o.compared.empty()) return;
+    o.moment = moment;
+    o.region = region;
+    o.quantity = quantity;
+    all.push_back(std::move(o));
+  };
+  std::vector<std::string> regions{"all"};
+  if (has_core(sets)) regions.insert(regions.end(), {"core", "rest"});
+  for (const std::string& quantity : quantities(sets.compared, moment, &RunResults::scalar_names))
+    keep(scalar(sets, {moment, "", "all", quantity}), "all", quantity);
+  for (const std::string& quantity : quantities(sets.compared, moment, &RunResults::distribution_names))
+    for (const std::string& region : regions)
+      keep(distribution(sets, {moment, "", "", quantity}, region), region, quantity);
+  for (const Kind kind : {Kind::profile, Kind::map})
+    for (Observable& o : field_observables(sets, moment, kind, core_radius(sets))) {
+      const std::string region = o.region, quantity = o.quantity;
+      keep(std::move(o), region, quantity);
+    }
+  return all;
+}
+
+}  // namespace wedge

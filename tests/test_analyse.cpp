@@ -1,0 +1,118 @@
+// test_analyse.cpp: wedge analyse on whole runs: moments, files, threads, and what it refuses.
+#include <filesystem>
+
+#include "apps/analysis/analyse.hpp"
+#include "core/parallel.hpp"
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "tests/catch.hpp"
+#include "tests/little_hopper.hpp"
+#include "tests/scratch_folder.hpp"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+/// Value of a number in scalars.csv.
+double scalar(const std::string& run, const std::string& moment, const std::string& part, const std::string& name) {
+  const std::string text = read_text_file(run + "/results/scalars.csv");
+  const std::string row = "\n" + moment + "," + part + "," + name + ",";
+  const std::size_t at = text.find(row);
+  REQUIRE(at != std::string::npos);
+  const auto fields = split_csv_line(std::string_view(text).substr(at + 1, text.find('\n', at + 1) - at - 1));
+  double value = 0;
+  REQUIRE(parse_number(fields[4].text, value) == NumberError::none);
+  return value;
+}
+
+AnalysisReport analysed(const std::string& run, PartRequest parts = {}, std::optional<TimeSpan> span = {}) {
+  AnalysisRequest request;
+  request.folder = run;
+  request.parts = std::move(parts);
+  request.span = span;
+  return analyse(request);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "wedge analyse: a sector's moments and numbers are those of its run, the same for any number of threads") {
+  const ScratchFolder folder;
+  const std::string run = folder / "run";
+  REQUIRE(command_run(arguments_for(run, 2)) == exit_code::ok);
+  const AnalysisReport report = analysed(run);
+  REQUIRE(report.moments.size() == 4);
+  CHECK(report.moments[0].name == "settle");
+  CHECK(report.moments[1].name == "settle_mean");
+  CHECK(report.moments[1].average);
+  CHECK(report.moments[2].name == "discharge");
+  CHECK(report.moments[3].frames.size() == 8);
+  // beds.csv was measured from the state itself, by other code: grains and coordination number at the end of a
+  // stage.
+  const std::string beds = read_text_file(run + "/results/beds.csv");
+  const auto heading = split_csv_line(beds.substr(0, beds.find('\n')));
+  const std::size_t second = beds.find('\n') + 1;
+  const auto row = split_csv_line(beds.substr(second, beds.find('\n', second) - second));
+  for (const auto& [column, name] : {std::pair{"grains", "grains"}, std::pair{"coordination number", "cn"}}) {
+    for (std::size_t k = 0; k < heading.size(); ++k) {
+      if (heading[k].text != column) continue;
+      double value = 0;
+      REQUIRE(parse_number(row[k].text, value) == NumberError::none);
+      CHECK(scalar(run, "settle", "whole", name) == Approx(value).epsilon(1e-4));
+    }
+  }
+  CHECK(scalar(run, "discharge_mean", "whole", "discharge_rate") > 100);
+  CHECK(read_text_file(run + "/results/summary.json").find("\"angle_deg\": 60") != std::string::npos);
+  std::vector<std::string> texts;
+  for (const std::string& file : report.files) texts.push_back(read_text_file(file));
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    const AnalysisReport again = analysed(run);
+    REQUIRE(again.files == report.files);
+    for (std::size_t k = 0; k < texts.size(); ++k) CHECK(read_text_file(again.files[k]) == texts[k]);
+  }
+  // A span of time instead of the stages.
+  CHECK(analysed(run, {}, TimeSpan{0.5, 1e300}).moments[1].frames.size() == 2);  // from 0.5 s to the end
+  const AnalysisReport window = analysed(run, {}, TimeSpan{0.2, 0.3});
+  REQUIRE(window.moments.size() == 2);
+  CHECK(window.moments[1].name == "window_mean");
+  CHECK(window.moments[1].frames.size() == 3);
+  CHECK_THROWS_AS(analysed(run, {}, TimeSpan{7, 8}), FileError);
+  // Without frames of contacts the overlaps count; forces are not known.
+  for (int k = 0; k < 13; ++k) std::filesystem::remove(RunFolder(run).frame("contacts", k));
+  const double with_contacts = scalar(run, "window", "whole", "cn");
+  analysed(run, {}, TimeSpan{0.2, 0.3});
+  CHECK(scalar(run, "window", "whole", "cn") == Approx(with_contacts).epsilon(1e-3));
+  CHECK(std::isnan(scalar(run, "window", "whole", "load")));
+}
+
+TEST_CASE("wedge analyse: the wedges of a full vessel make up the whole") {
+  const ScratchFolder folder;
+  const std::string run = folder / "run";
+  REQUIRE(command_run(arguments_for(run, 2, {"domain.angle=360", "stage.discharge.until=0.1"})) == exit_code::ok);
+  analysed(run, {{3}, 3});
+  for (const char* moment : {"settle", "discharge_mean"}) {
+    double grains = 0, weighted = 0;
+    for (const char* part : {"wedge_120_0", "wedge_120_1", "wedge_120_2"}) {
+      const double held = scalar(run, moment, part, "grains");
+      grains += held / 3;
+      weighted += held / 3 * scalar(run, moment, part, "cn");
+    }
+    CHECK(grains == Approx(scalar(run, moment, "whole", "grains")).epsilon(1e-4));
+    CHECK(weighted / grains == Approx(scalar(run, moment, "whole", "cn")).epsilon(0.01));
+  }
+}
+
+TEST_CASE("wedge analyse: refuses what is no run, and one that has not got to the end of a stage") {
+  const ScratchFolder folder;
+  CHECK_THROWS_AS(analysed(folder / "none"), FileError);
+  const std::string run = folder / "run";
+  REQUIRE(command_run(arguments_for(run, 2, {"stage.settle.until=0.1", "stage.discharge.until=0.02"})) ==
+          exit_code::ok);
+  std::filesystem::remove(RunFolder(run).beds());
+  CHECK_THROWS_AS(analysed(run), FileError);
+  CHECK(analysed(run, {}, TimeSpan{0, 1}).frames > 1);
+  std::filesystem::remove_all(RunFolder(run).frames());
+  CHECK_THROWS_AS(analysed(run, {}, TimeSpan{0, 1}), FileError);
+}

@@ -1,0 +1,417 @@
+// test_compare_folders.cpp: wedge compare on folders as `wedge analyse` leaves them: sound, poor and wrong.
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "apps/commands.hpp"
+#include "core/random.hpp"
+#include "core/require.hpp"
+#include "io/csv.hpp"
+#include "tests/scratch_folder.hpp"
+#include "tests/sound_scene.hpp"
+
+#include "io/atomic_file.hpp"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double d = 0.002;  // m, of the sound scene
+
+/// What a wedge of a synthetic vessel is like; parts add up to wholes.
+struct Part {
+  std::vector<double> counts;  // of vz, bins of one unit from -10 on
+  std::vector<double> cn;      // of 12 rings
+};
+
+Part operator+(const Part& a, const Part& b) {
+  Part sum = a;
+  for (std::size_t k = 0; k < sum.counts.size(); ++k) sum.counts[k] += b.counts[k];
+  for (std::size_t k = 0; k < sum.cn.size(); ++k) sum.cn[k] += b.cn[k];
+  return sum;
+}
+
+double normal(RandomStream& random) {
+  double sum = -6;
+  for (int k = 0; k < 12; ++k) sum += random.uniform();
+  return sum;
+}
+
+Part random_part(RandomStream& random, double shift) {
+  Part part{std::vector<double>(20, 0), {}};
+  for (int k = 0; k < 200; ++k) {
+    const double value = std::min(19.0, std::max(0.0, std::floor(10 + shift + 2 * normal(random))));
+    part.counts[static_cast<std::size_t>(value)] += 1;
+  }
+  for (int ring = 0; ring < 12; ++ring) part.cn.push_back(5 + shift + 0.1 * normal(random));
+  return part;
+}
+
+/// The files of one run as text, part by part. `wedges`: of how many wedges the part is the sum.
+class Files {
+public:
+  void add(const std::string& part, const Part& content, int wedges) {
+    for (const char* moment : {"settle", "flow_mean"}) {
+      const std::string head = std::string(moment) + "," + part + ",";
+      double grains = 0, sum = 0, cn = 0;
+      std::string counts;
+      for (std::size_t k = 0; k < content.counts.size(); ++k) {
+        grains += content.counts[k];
+        sum += (static_cast<double>(k) - 9.5) * content.counts[k];
+        counts += (k > 0 ? " " : "") + number_text(content.counts[k]);
+      }
+      for (const double of_ring : content.cn) cn += of_ring / 12 / wedges;
+      scalars += head + "vz,m/s," + number_text(sum / grains) + ",nan,nan\n";
+      scalars += head + "cn,-," + number_text(cn) + ",nan,nan\n";
+      // sinh(k asinh(1)) would stretch the bins; a step so small leaves them even.
+      for (const char* region : {"all", "core_90", "rest_90"})
+        distributions += head + region + ",vz,m/s,1000000,1e-6,-10," + counts + "\n";
+      for (int ring = 0; ring < 12; ++ring) {
+        const std::string r = number_text((ring + 0.5) * d / 2),
+                          value = number_text(content.cn[static_cast<std::size_t>(ring)] / wedges);
+        radial += head + r + ",1," + number_text(ring + 1) + "," + value + "\n";
+        map += head + r + "," + number_text(d) + "," + number_text(ring + 1) + "," + value + ",3\n";
+      }
+    }
+  }
+  void write(const std::string& folder, double angle) const {
+    fs::create_directories(folder + "/results");
+    write_text_file_atomically(folder + "/scene.resolved.toml",
+                               replaced(sound, "angle = 90", "angle = " + number_text(angle)));
+    write_text_file_atomically(folder + "/results/scalars.csv", scalars);
+    write_text_file_atomically(folder + "/results/distributions.csv", distributions);
+    write_text_file_atomically(folder + "/results/radial.csv", radial);
+    write_text_file_atomically(folder + "/results/map.csv", map);
+  }
+
+  std::string scalars = "moment,part,quantity,unit,value,low,high\n",
+              distributions = "moment,part,region,quantity,unit,scale,step,first,counts\n",
+              radial = "moment,part,r [m],arc [d],grains,cn\n", map = "moment,part,r [m],z [m],grains,cn,zone\n";
+};
+
+/// Folders of synthetic runs: full vessels of four wedges, and sectors of 90 degrees whose law may be shifted.
+class Study {
+public:
+  std::vector<std::string> full(int runs) {
+    std::vector<std::string> folders;
+    for (int run = 0; run < runs; ++run) {
+      Files files;
+      Part whole = random_part(random_, 0);
+      files.add("wedge_90_0", whole, 1);
+      for (int k = 1; k < 4; ++k) {
+        const Part wedge = random_part(random_, 0);
+        files.add("wedge_90_" + std::to_string(k), wedge, 1);
+        whole = whole + wedge;
+      }
+      files.add("whole", whole, 4);
+      folders.push_back(scratch_ / ("full" + std::to_string(made_++)));
+      files.write(folders.back(), 360);
+    }
+    return folders;
+  }
+  std::vector<std::string> sectors(int runs, double shift, double angle = 90) {
+    std::vector<std::string> folders;
+    for (int run = 0; run < runs; ++run) {
+      Files files;
+      files.add("whole", random_part(random_, shift), 1);
+      folders.push_back(scratch_ / ("sector" + std::to_string(made_++)));
+      files.write(folders.back(), angle);
+    }
+    return folders;
+  }
+  std::string file(const std::string& name, const std::string& text) {
+    write_text_file_atomically(scratch_ / name, text);
+    return scratch_ / name;
+  }
+  std::string path(const std::string& name) const { return scratch_ / name; }
+
+private:
+  ScratchFolder scratch_;
+  RandomStream random_{5, 1};
+  int made_ = 0;
+};
+
+struct Said {
+  int code = 0;
+  std::string text, errors;
+};
+
+/// Runs the command with its output caught.
+Said compare(const std::vector<std::string>& reference, const std::vector<std::string>& with,
+             const CompareOptions& options = {}) {
+  std::ostringstream out, errors;
+  std::streambuf *const screen = std::cout.rdbuf(out.rdbuf()), *const complaints = std::cerr.rdbuf(errors.rdbuf());
+  Said said;
+  const auto restore = [&] {
+    std::cout.rdbuf(screen);
+    std::cerr.rdbuf(complaints);
+  };
+  try {
+    said.code = command_compare(reference, with, options);
+  } catch (...) {
+    restore();
+    throw;
+  }
+  restore();
+  said.text = out.str();
+  said.errors = errors.str();
+  return said;
+}
+
+bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+using Row = std::map<std::string, std::string>;
+std::vector<Row> rows_of(const std::string& path) {
+  std::istringstream text(read_text_file(path));
+  std::vector<Row> rows;
+  std::string line;
+  std::getline(text, line);
+  const std::vector<CsvField> names = split_csv_line(line);
+  while (std::getline(text, line)) {
+    const std::vector<CsvField> fields = split_csv_line(line);
+    REQUIRE(fields.size() == names.size());
+    Row row;
+    for (std::size_t k = 0; k < names.size(); ++k) row[names[k].text] = fields[k].text;
+    rows.push_back(row);
+  }
+  return rows;
+}
+double number(const Row& row, const std::string& column) {
+  double value = 0;
+  REQUIRE(parse_number(row.at(column), value) == NumberError::none);
+  return value;
+}
+
+std::string complaint(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+}  // namespace
+
+TEST_CASE("Sectors of the same law agree with full vessels, shifted ones do not", "[compare]") {
+  Study study;
+  const auto full = study.full(6);
+  CompareOptions options;
+  options.csv = study.path("same.csv");
+  const Said same = compare(full, study.sectors(5, 0), options);
+  CHECK(same.code == 0);
+  CHECK(has(same.text, "core: r < 4 d / theta = 2.55 d"));
+  CHECK(has(
+      same.text,
+      "yardstick: 5 wedges against 6 full vessels, drawn 1000 times from the 24 wedges of the 6 reference runs"));
+  CHECK(has(same.text, "bootstrap over seeds"));
+  const std::vector<Row> rows = rows_of(options.csv);
+  // Of each moment: two scalars; one distribution, by two measures, in three regions; a profile and a map in three.
+  REQUIRE(rows.size() == 2 * (2 + 6 + 3 + 3));
+  int beyond = 0;
+  for (const Row& row : rows) {
+    beyond += row.at("beyond") == "1" ? 1 : 0;
+    CHECK(row.at("bootstrap") == "seeds");
+    CHECK(row.at("reference_runs") == "6");
+    CHECK(row.at("compared_runs") == "5");
+    CHECK(number(row, "yardstick_low") <= number(row, "yardstick"));
+    CHECK(number(row, "yardstick") <= number(row, "yardstick_high"));
+    CHECK(number(row, "low") <= number(row, "high"));
+  }
+  CHECK(beyond <= 4);
+  options.csv = study.path("shifted.csv");
+  const Said shifted = compare(full, study.sectors(5, 1), options);
+  CHECK(has(shifted.text, "28 of 28 rows with a yardstick are beyond"));
+  for (const Row& row : rows_of(options.csv)) {
+    CHECK(row.at("beyond") == "1");
+    if (row.at("measure") == "wasserstein") CHECK(number(row, "value") == Approx(1).margin(0.15));
+    if (row.at("measure") == "rms") CHECK(number(row, "value") == Approx(1).margin(0.1));
+    if (row.at("quantity") == "cn") CHECK(number(row, "relative") == Approx(0.2).margin(0.02));
+  }
+}
+
+TEST_CASE("Few runs are compared over wedges, few without wedges by what is left, and it is said", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(1, 0);
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  options.moment = "settle";
+  const Said few = compare(full, sector, options);
+  CHECK(has(few.text, "bootstrap over the wedges of the reference runs"));
+  CHECK_FALSE(has(few.text, "moment flow_mean"));
+  for (const Row& row : rows_of(options.csv)) CHECK(row.at("bootstrap") == "wedges");
+
+  const Said one = compare({full[0]}, sector, options);
+  CHECK(has(one.text, "which knows nothing of other seeds"));
+
+  const Said bare = compare(study.sectors(2, 0), sector, options);  // alike, two runs
+  CHECK(has(bare.text,
+            "yardstick: 1 run against 2 sectors of 90 degrees, drawn 1000 times from the 2 reference runs"));
+  for (const Row& row : rows_of(options.csv)) CHECK(row.at("bootstrap") == "none");
+
+  const Said other = compare(full, study.sectors(1, 0, 45), options);  // nobody cut wedges of 45 degrees
+  CHECK(has(other.text,
+            "yardstick: not known: the reference runs have no wedges of this angle; cut some: wedge analyse"));
+  for (const Row& row : rows_of(options.csv)) CHECK(row.at("beyond") == "nan");
+}
+
+TEST_CASE("The same runs compared with themselves do not differ, twice to the same letters", "[compare]") {
+  Study study;
+  const auto full = study.full(5);
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  const Said first = compare(full, full, options);
+  for (const Row& row : rows_of(options.csv)) {
+    CHECK(number(row, "value") == 0);
+    CHECK(row.at("beyond") == "0");
+    CHECK(row.at("region") == "all");  // a full vessel has no core
+  }
+  CHECK(compare(full, full, options).text == first.text);
+}
+
+TEST_CASE("Folders that lack files are compared in what they have", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(1, 0);
+  fs::remove(sector[0] + "/results/map.csv");
+  fs::remove(full[1] + "/results/radial.csv");
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  const Said said = compare(full, sector, options);
+  CHECK(has(said.text, sector[0] + ": there is no results/map.csv: what it tells of this run is left out"));
+  for (const Row& row : rows_of(options.csv)) {
+    CHECK(row.at("kind") != "map");
+    if (row.at("kind") == "profile") CHECK(row.at("reference_runs") == "1");
+  }
+  fs::remove_all(sector[0] + "/results");
+  const Said bare = compare(full, sector);
+  CHECK(bare.code == 0);
+  CHECK(has(bare.text, sector[0] + ": is not analysed: wedge analyse " + sector[0]));
+  options = {};
+  options.tolerance = study.file("t.toml", "[[tolerance]]\nrelative = 1\n");
+  CHECK_THROWS_AS(compare(full, sector, options), FileError);
+}
+
+TEST_CASE("A file of an analysis that is wrong is refused with its place", "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  const std::string distributions = sector[0] + "/results/distributions.csv",
+                    scalars = sector[0] + "/results/scalars.csv";
+  const std::string head = "moment,part,region,quantity,unit,scale,step,first,counts\n";
+  for (const auto& [rows, says] :
+       {std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 two\n", ":2: error: 'two' is no number"),
+        std::make_pair(head + "settle,whole,all,vz,m/s,0,0,0,1 2\n", ":2: error: scale must be above 0"),
+        std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 -2\n", ":2: error: counts must be at least 0"),
+        std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0\n", ":2: error: expected 9 fields"),
+        std::make_pair(std::string("moment,part,area\n"), ":1: error: there is no column 'region'"),
+        std::make_pair(std::string("stage,time\n"), ":1: error: this is no table of `wedge analyse`"),
+        std::make_pair(std::string(), ":1: error: the file is empty")}) {
+    write_text_file_atomically(distributions, rows);
+    CHECK(has(complaint([&] { compare(full, sector); }), distributions + says));
+  }
+}
+
+TEST_CASE("Sets of mixed angles and moments that are not there are wrong usage", "[compare]") {
+  Study study;
+  auto sector = study.sectors(1, 0);
+  const auto full = study.full(1), other = study.sectors(1, 0, 60);
+  CompareOptions options;
+  options.moment = "setle";
+  const Said said = compare(full, sector, options);
+  CHECK(said.code == 2);
+  CHECK(has(said.errors, "did you mean 'settle'?"));
+  sector.push_back(other[0]);
+  const Said mixed = compare(full, sector);
+  CHECK(mixed.code == 2);
+  CHECK(has(mixed.errors, "the compared runs are of different domains: " + sector[0] + " (90 degrees)"));
+  CHECK(compare(sector, full).code == 2);
+}
+
+TEST_CASE("Tolerances: exit 0 within, 6 outside, and never silently about nothing", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(2, 0.5);
+  CompareOptions options;
+  const auto judged = [&](const std::string& text) {
+    options.tolerance = study.file("tolerance.toml", text);
+    return compare(full, sector, options);
+  };
+  const std::string vz =
+      "[[tolerance]]\nmoment = \"flow_*\"\nquantity = \"vz\"\nregion = \"all\"\nmeasure = \"wasserstein\"\n";
+  const Said within = judged(vz + "relative = 0.5\nabsolute = 1\n");
+  CHECK(within.code == 0);
+  CHECK(has(within.text, "tolerance.toml: all 1 row within tolerance"));
+  const Said outside = judged(vz + "absolute = 0.1\n[[tolerance]]\nkind = \"scalar\"\nabsolute = 10\n");
+  CHECK(outside.code == 6);
+  CHECK(has(outside.text, "of 5 rows outside of tolerance:\n  distribution flow_mean: vz [m/s], wasserstein"));
+
+  const auto refused = [&](const std::string& text) { return complaint([&] { judged(text); }); };
+  CHECK(has(refused("[[tolerance]]\nquantity = \"cm\"\nrelative = 1\n"),
+            "tolerance.toml:1:1: error: this tolerance is about no row of the comparison"));
+  CHECK(has(refused("[[tolerance]]\nquantity = \"cnn\"\nrelative = 1\n"), "did you mean 'cn'?"));
+  CHECK(has(refused("[[tolerance]]\nkind = \"map\"\nmeasure = \"ks\"\nrelative = 1\n"), "no row has all of these"));
+  CHECK(has(refused("[[tolerance]]\nquantty = \"cn\"\nrelative = 1\n"), "did you mean 'quantity'?"));
+  CHECK(has(refused("[[tolerance]]\nrelative = -1\n"), "'relative' must be at least 0"));
+  CHECK(has(refused("[[tolerance]]\nquantity = \"cn\"\n"), "'relative' is missing"));
+  CHECK(has(refused("[[tolerances]]\nrelative = 1\n"), "unknown table 'tolerances'"));
+  CHECK(has(refused("[tolerance]\nrelative = 1\n"), "must be a list of tables"));
+  CHECK(has(refused("relative =\n"), "tolerance.toml:1:"));
+  CHECK(has(refused("\n"), "there is no tolerance in this file"));
+  CHECK_THROWS_AS(judged("[[tolerance]]\nquantity = \"cm\"\nrelative = 1\n"), SceneError);
+}
+
+TEST_CASE("A quantity that is not known is not within tolerance", "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  const std::string head = "moment,part,quantity,unit,value,low,high\nsettle,whole,vr,m/s,";
+  write_text_file_atomically(full[0] + "/results/scalars.csv", head + "0,nan,nan\n");
+  write_text_file_atomically(sector[0] + "/results/scalars.csv", head + "0.1,nan,nan\n");
+  CompareOptions options;
+  options.tolerance = study.file("t.toml", "[[tolerance]]\nquantity = \"vr\"\nrelative = 100\n");
+  CHECK(compare(full, sector, options).code == 6);
+}
+
+TEST_CASE("Scalars that only sectors and wedges have are compared with the wedges of the full vessels",
+          "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  std::string text = "moment,part,quantity,unit,value,low,high\n";
+  for (int k = 0; k < 4; ++k)
+    text += "settle,wedge_90_" + std::to_string(k) + ",cn_slope,1," + std::to_string(k) + ",nan,nan\n";
+  write_text_file_atomically(full[0] + "/results/scalars.csv", text);
+  write_text_file_atomically(sector[0] + "/results/scalars.csv",
+                             "moment,part,quantity,unit,value,low,high\nsettle,whole,cn_slope,1,5,nan,nan\n");
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  compare(full, sector, options);
+  const Row row = rows_of(options.csv).at(0);
+  CHECK(row.at("quantity") == "cn_slope");
+  CHECK(number(row, "reference") == 1.5);
+  CHECK(number(row, "value") == 3.5);
+}
+
+TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  std::string first = "moment,part,r [m],z [m],grains,cn,zone\n", second = first;
+  for (int k = 0; k < 6; ++k) {  // r = 0.5 d ... 5.5 d: the core of a quarter ends at 2.55 d; three cells inside
+    const std::string place = "settle,whole," + number_text((k + 0.5) * d) + ",0,1,";
+    first += place + "5,0\n";
+    second += place + (k < 3 ? "7,0\n" : "6,0\n");
+  }
+  write_text_file_atomically(full[0] + "/results/map.csv", first);
+  write_text_file_atomically(sector[0] + "/results/map.csv", second);
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  compare(full, sector, options);
+  std::map<std::string, double> rms;
+  for (const Row& row : rows_of(options.csv))
+    if (row.at("kind") == "map") rms[row.at("region")] = number(row, "value");
+  REQUIRE(rms.size() == 3);
+  CHECK(rms["core"] == Approx(2));
+  CHECK(rms["rest"] == Approx(1));
+  CHECK(rms["all"] == Approx(std::sqrt(2.5)));
+}
