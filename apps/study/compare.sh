@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# compare.sh [RUNS COMPARISONS]: compares the runs in the folder RUNS (runs/ beside this file), sectors with the full vessels
-# of their set, and writes a table for each pair of ensembles into COMPARISONS (comparisons/ there). WEDGE: the program.
+# compare.sh RUNS COMPARISONS: compares the runs in the folder RUNS (such as runs/ beside this file), sectors with the full vessels
+# of their set, and writes a table for each pair of ensembles into COMPARISONS. WEDGE: the program.
 set -euo pipefail
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 wedge=${WEDGE:-$study/../../build/release/wedge}
 [ -x "$wedge" ] || { echo "error: $wedge: no such program; build it first: bash apps/demo.sh" >&2; exit 4; }
-runs=${1:-$study/runs} comparisons=${2:-$study/comparisons}
+[ $# -eq 2 ] || { echo "usage: bash apps/study/compare.sh RUNS COMPARISONS" >&2; exit 2; }
+runs=$1 comparisons=$2
 rm -rf "$comparisons"
 mkdir -p "$comparisons"
 comparisons=$(cd "$comparisons" && pwd)
