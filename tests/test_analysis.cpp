@@ -546,11 +546,15 @@ TEST_CASE("Pictures: a sector's slice lies in its middle, with images at the axi
   const BedFrame bed = bed_of(run, grains);
   const SlicePicture slice = slice_picture(run, bed);
   REQUIRE(slice.grains.size() ==
-          3);  // the middle one, and two copies of the one near the axis on the half plane's side
+          3);                    // the middle one, and two copies of the one near the axis on the half plane's side
+  double farthest = 0, off = 1;  // the one in the middle of the sector: 10 d along the plane, not off it
   for (const PictureGrain& g : slice.grains) {
     CHECK(g.position.x >= 0);
     CHECK(std::abs(g.position.y) <= 2 * d);
+    if (g.position.x > farthest) farthest = g.position.x, off = g.position.y;
   }
+  CHECK(farthest == Approx(10 * d));
+  CHECK(off == Approx(0).margin(1e-12));
   CHECK(cut_picture(run, bed, 5.5 * d).size() == 2);
   CHECK(cut_picture(run, bed, 9 * d).size() == 1);
 }
