@@ -25,6 +25,7 @@ const char* const examples =
     "  wedge resume full --wall-time 12:00:00\n"
     "  wedge analyse full --wedges 2\n"
     "  wedge compare full_1 full_2 --with sector90_1 sector90_2 --csv table.csv\n"
+    "  wedge report full_1 full_2 sector90_1 sector90_2 --compare table.csv -o page.html\n"
     "  wedge export sector90 --last --to csv --unfold -o state.csv\n"
     "  wedge export full --frame 3 --to vtp --vessel\n"
     "Exit codes: 0 ok, 1 internal error, 2 usage, 3 scene, 4 file or disk, 5 physics, 6 outside tolerance,\n"
@@ -85,7 +86,7 @@ public:
     add_analyse();
     add_export();
     add_new();
-    add_not_built();
+    add_report();
     app_.footer(examples);  // last, or every command would inherit it
   }
 
@@ -248,11 +249,17 @@ private:
         ->add_option("SCENE", name_, "hopper or sandpile")
         ->required();
   }
-  void add_not_built() {
-    for (const char* name : {"report"})
-      command(name, "(not built yet)", [name] {
-        return usage(std::string(name) + " is not built yet");
-      })->allow_extras();
+  void add_report() {
+    CLI::App* report =
+        command("report", "Draw the figures of analysed runs on one HTML page (needs python3-matplotlib)",
+                [this] { return command_report(report_); });
+    report->add_option("DIR", report_.folders, "folders of runs, or with runs up to two levels below")->required();
+    report
+        ->add_option("-o,--output", report_.output,
+                     "page to write (default: report/index.html in DIR; of several, report.html here)")
+        ->type_name("FILE");
+    report->add_option("--compare", report_.comparisons, "files of `wedge compare --csv`")->type_name("FILE");
+    report->add_option("--title", report_.title, "title of the page")->type_name("TEXT");
   }
 
   int export_checked() {
@@ -273,6 +280,7 @@ private:
   RunArguments run_;
   ExportArguments export_;
   AnalyseArguments analyse_;
+  ReportArguments report_;
   std::string name_;
   std::vector<std::string> reference_, with_;
   CompareOptions compare_;

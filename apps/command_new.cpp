@@ -2,14 +2,14 @@
 #include <iostream>
 
 #include "apps/commands.hpp"
-#include "apps/embedded_scenes.hpp"
+#include "apps/embedded_files.hpp"
 #include "io/scene_diagnostics.hpp"
 
 namespace wedge {
 
 int command_new(const std::string& name) {
   std::vector<std::string> names;
-  for (const EmbeddedScene& scene : embedded_scenes()) {
+  for (const EmbeddedFile& scene : embedded_scenes()) {
     if (scene.name == name) {
       std::cout << scene.text;
       return exit_code::ok;

@@ -47,6 +47,14 @@ struct AnalyseArguments {
   int threads = 0;                 // 0: what the container may use
 };
 int command_analyse(const AnalyseArguments&);
+
+struct ReportArguments {
+  std::vector<std::string> folders;      // of runs, or with runs below them
+  std::vector<std::string> comparisons;  // files of `wedge compare --csv`
+  std::string output;                    // empty: report/index.html in the one folder, or report.html here
+  std::string title;
+};
+int command_report(const ReportArguments&);
 int command_new(const std::string& name);
 
 struct CompareOptions {
