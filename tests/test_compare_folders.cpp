@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "apps/commands.hpp"
 #include "core/random.hpp"
@@ -391,6 +392,25 @@ TEST_CASE("Scalars that only sectors and wedges have are compared with the wedge
   CHECK(row.at("quantity") == "cn_slope");
   CHECK(number(row, "reference") == 1.5);
   CHECK(number(row, "value") == 3.5);
+}
+
+TEST_CASE("Histograms of different bins are compared in the bins of both", "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  const std::string head = "moment,part,region,quantity,unit,scale,step,first,counts\nsettle,whole,all,vz,m/s,";
+  write_text_file_atomically(full[0] + "/results/distributions.csv", head + "1000000,1e-6,0,3 3 5 5\n");
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  for (const auto& [counts, wasserstein, ks] :
+       {std::make_tuple("0,6 10", 0.0, 0.0), std::make_tuple("1,6 10", 2.0, 0.625)}) {  // bins twice as wide
+    write_text_file_atomically(sector[0] + "/results/distributions.csv", head + "2000000,1e-6," + counts + "\n");
+    compare(full, sector, options);
+    std::map<std::string, double> found;
+    for (const Row& row : rows_of(options.csv))
+      if (row.at("kind") == "distribution") found[row.at("measure")] = number(row, "value");
+    CHECK(found.at("wasserstein") == Approx(wasserstein).margin(1e-6));
+    CHECK(found.at("ks") == Approx(ks).margin(1e-6));
+  }
 }
 
 TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
