@@ -518,8 +518,8 @@ TEST_CASE("Discharge: rate of a steady stream, of wedges, its interval, arches, 
   AnalysedRun open = run;
   open.scene.stages = {Stage{}};
   open.scene.stages[0].remove = {"plug"};
-  CHECK(orifice_diameter(open) == Approx(8 * d));
-  CHECK(orifice_diameter(run) == 0);
+  CHECK(orifice_diameter(open.scene) == Approx(8 * d));
+  CHECK(orifice_diameter(run.scene) == 0);
   const Estimate expected = beverloo_rate(open, 0.6);
   // 0.55 0.6 sqrt(9.81) (6.5 d)^2.5 over pi/6 d^3, and 0.64 with 6.6 d.
   CHECK(expected.low == Approx(0.55 * 0.6 * std::sqrt(9.81) * std::pow(6.5, 2.5) * 6 / pi / std::sqrt(d)));
