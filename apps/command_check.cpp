@@ -5,6 +5,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/progress_line.hpp"
+#include "apps/sector_error.hpp"
 #include "apps/setup.hpp"
 #include "apps/text_table.hpp"
 #include "apps/threads.hpp"
@@ -159,6 +160,8 @@ void print_domain(const Scene& scene, std::int64_t grains) {
     std::cout << "  grains: " << text_of(grains) << '\n';
   }
   print_axis(domain);
+  if (const auto expected = expected_errors(scene))
+    std::cout << "  expected against the full vessel (apps/study/README.md): " << expectation_text(*expected) << '\n';
 }
 
 /// Simulated time [s] the stages can take; `exact` where a time ends them all, else bounds. Nothing without bound.
@@ -245,6 +248,7 @@ int command_check(const std::string& scene_file, const std::vector<std::string>&
   print_domain(scene, grains);
   print_costs(scene, static_cast<double>(grains), threads);
   std::vector<std::string> warnings = scene_warnings(scene);
+  if (const auto warning = expectation_warning(scene)) warnings.push_back(*warning);
   if (grains == 0) warnings.push_back(no_grains_text(scene));
   std::cout << (warnings.empty() ? "\nNo warnings.\n" : "\nWarnings\n");
   for (const std::string& warning : warnings) std::cout << "  " << warning << '\n';

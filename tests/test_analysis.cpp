@@ -518,8 +518,8 @@ TEST_CASE("Discharge: rate of a steady stream, of wedges, its interval, arches, 
   AnalysedRun open = run;
   open.scene.stages = {Stage{}};
   open.scene.stages[0].remove = {"plug"};
-  CHECK(orifice_diameter(open) == Approx(8 * d));
-  CHECK(orifice_diameter(run) == 0);
+  CHECK(orifice_diameter(open.scene) == Approx(8 * d));
+  CHECK(orifice_diameter(run.scene) == 0);
   const Estimate expected = beverloo_rate(open, 0.6);
   // 0.55 0.6 sqrt(9.81) (6.5 d)^2.5 over pi/6 d^3, and 0.64 with 6.6 d.
   CHECK(expected.low == Approx(0.55 * 0.6 * std::sqrt(9.81) * std::pow(6.5, 2.5) * 6 / pi / std::sqrt(d)));
@@ -546,11 +546,15 @@ TEST_CASE("Pictures: a sector's slice lies in its middle, with images at the axi
   const BedFrame bed = bed_of(run, grains);
   const SlicePicture slice = slice_picture(run, bed);
   REQUIRE(slice.grains.size() ==
-          3);  // the middle one, and two copies of the one near the axis on the half plane's side
+          3);                    // the middle one, and two copies of the one near the axis on the half plane's side
+  double farthest = 0, off = 1;  // the one in the middle of the sector: 10 d along the plane, not off it
   for (const PictureGrain& g : slice.grains) {
     CHECK(g.position.x >= 0);
     CHECK(std::abs(g.position.y) <= 2 * d);
+    if (g.position.x > farthest) farthest = g.position.x, off = g.position.y;
   }
+  CHECK(farthest == Approx(10 * d));
+  CHECK(off == Approx(0).margin(1e-12));
   CHECK(cut_picture(run, bed, 5.5 * d).size() == 2);
   CHECK(cut_picture(run, bed, 9 * d).size() == 1);
 }

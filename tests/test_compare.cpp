@@ -151,6 +151,7 @@ TEST_CASE("Wasserstein distance of laws with known answers") {
     CHECK(wasserstein(whole_bins(7), whole_numbers({0, 0, 9, 0, 0, 0, 0}), whole_numbers({0, 0, 0, 0, 0, 4, 0})) ==
           Approx(3).epsilon(1e-12));
     CHECK(wasserstein(whole_bins(3), whole_numbers({1, 1, 0}), whole_numbers({0, 1, 1})) == Approx(1));
+    CHECK(wasserstein(whole_bins(3), whole_numbers({1, 0, 1}), whole_numbers({0, 2, 0})) == Approx(1));
   }
 }
 
@@ -234,6 +235,26 @@ TEST_CASE("95 % intervals of few runs: over wedges, or from what the runs themse
   CHECK(confidence(one, Measure::difference, quarter).basis == Basis::none);
 }
 
+TEST_CASE("An interval over wedges has the noise of the sectors and that of the vessels") {
+  Observable o;
+  o.wedges.resize(1);
+  for (int k = 0; k < 100; ++k) o.wedges[0].push_back(scalar(k % 2 == 0 ? -1 : 1));
+  o.reference = {scalar(0)};
+  o.reference_errors = {std::nan("")};
+  for (int k = 0; k < 4; ++k) {
+    o.compared.push_back(scalar(5));
+    o.compared_errors.push_back(std::nan(""));
+  }
+  // Four sectors, and a vessel of four wedges: 1/4 + 1/4.
+  Confidence interval = confidence(o, Measure::difference, quarter);
+  CHECK(interval.high - 5 == Approx(2 * std::sqrt(0.5)).margin(0.15));
+  CHECK(5 - interval.low == Approx(2 * std::sqrt(0.5)).margin(0.15));
+  // Sectors that say of themselves that they scatter more: 4 / 4 instead of 1 / 4.
+  o.compared_errors.assign(4, 2);
+  interval = confidence(o, Measure::difference, quarter);
+  CHECK(interval.high - 5 == Approx(2 * std::sqrt(1.25)).margin(0.2));
+}
+
 TEST_CASE("95 % intervals of distances cover the distance of the laws, also where that is 0") {
   Normal normal(21);
   const auto map = [&](double shift) {  // of 10 cells, each of its own sign
@@ -311,4 +332,12 @@ TEST_CASE("A row tells means, runs, relative distance and what its interval rest
   CHECK(0.5 < rows[0].interval.high);
   const std::vector<ComparisonRow> again = compare(o, quarter);
   CHECK(comparison_csv(rows) == comparison_csv(again));
+}
+
+TEST_CASE("The rounding of a mean is not beyond a yardstick of no width") {
+  Observable o;
+  o.reference.assign(6, scalar(0.1));
+  o.wedges.assign(6, {scalar(0.1), scalar(0.1)});
+  o.compared.assign(1, scalar(std::nextafter(0.1, 1.0)));
+  CHECK_FALSE(compare(o, {false, 2, 1})[0].beyond);
 }

@@ -5,15 +5,13 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "apps/commands.hpp"
-#include "core/random.hpp"
 #include "core/require.hpp"
-#include "io/csv.hpp"
-#include "tests/scratch_folder.hpp"
-#include "tests/sound_scene.hpp"
-
 #include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "tests/synthetic_study.hpp"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -21,120 +19,6 @@ using namespace wedge::test;
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double d = 0.002;  // m, of the sound scene
-
-/// What a wedge of a synthetic vessel is like; parts add up to wholes.
-struct Part {
-  std::vector<double> counts;  // of vz, bins of one unit from -10 on
-  std::vector<double> cn;      // of 12 rings
-};
-
-Part operator+(const Part& a, const Part& b) {
-  Part sum = a;
-  for (std::size_t k = 0; k < sum.counts.size(); ++k) sum.counts[k] += b.counts[k];
-  for (std::size_t k = 0; k < sum.cn.size(); ++k) sum.cn[k] += b.cn[k];
-  return sum;
-}
-
-double normal(RandomStream& random) {
-  double sum = -6;
-  for (int k = 0; k < 12; ++k) sum += random.uniform();
-  return sum;
-}
-
-Part random_part(RandomStream& random, double shift) {
-  Part part{std::vector<double>(20, 0), {}};
-  for (int k = 0; k < 200; ++k) {
-    const double value = std::min(19.0, std::max(0.0, std::floor(10 + shift + 2 * normal(random))));
-    part.counts[static_cast<std::size_t>(value)] += 1;
-  }
-  for (int ring = 0; ring < 12; ++ring) part.cn.push_back(5 + shift + 0.1 * normal(random));
-  return part;
-}
-
-/// The files of one run as text, part by part. `wedges`: of how many wedges the part is the sum.
-class Files {
-public:
-  void add(const std::string& part, const Part& content, int wedges) {
-    for (const char* moment : {"settle", "flow_mean"}) {
-      const std::string head = std::string(moment) + "," + part + ",";
-      double grains = 0, sum = 0, cn = 0;
-      std::string counts;
-      for (std::size_t k = 0; k < content.counts.size(); ++k) {
-        grains += content.counts[k];
-        sum += (static_cast<double>(k) - 9.5) * content.counts[k];
-        counts += (k > 0 ? " " : "") + number_text(content.counts[k]);
-      }
-      for (const double of_ring : content.cn) cn += of_ring / 12 / wedges;
-      scalars += head + "vz,m/s," + number_text(sum / grains) + ",nan,nan\n";
-      scalars += head + "cn,-," + number_text(cn) + ",nan,nan\n";
-      // sinh(k asinh(1)) would stretch the bins; a step so small leaves them even.
-      for (const char* region : {"all", "core_90", "rest_90"})
-        distributions += head + region + ",vz,m/s,1000000,1e-6,-10," + counts + "\n";
-      for (int ring = 0; ring < 12; ++ring) {
-        const std::string r = number_text((ring + 0.5) * d / 2),
-                          value = number_text(content.cn[static_cast<std::size_t>(ring)] / wedges);
-        radial += head + r + ",1," + number_text(ring + 1) + "," + value + "\n";
-        map += head + r + "," + number_text(d) + "," + number_text(ring + 1) + "," + value + ",3\n";
-      }
-    }
-  }
-  void write(const std::string& folder, double angle) const {
-    fs::create_directories(folder + "/results");
-    write_text_file_atomically(folder + "/scene.resolved.toml",
-                               replaced(sound, "angle = 90", "angle = " + number_text(angle)));
-    write_text_file_atomically(folder + "/results/scalars.csv", scalars);
-    write_text_file_atomically(folder + "/results/distributions.csv", distributions);
-    write_text_file_atomically(folder + "/results/radial.csv", radial);
-    write_text_file_atomically(folder + "/results/map.csv", map);
-  }
-
-  std::string scalars = "moment,part,quantity,unit,value,low,high\n",
-              distributions = "moment,part,region,quantity,unit,scale,step,first,counts\n",
-              radial = "moment,part,r [m],arc [d],grains,cn\n", map = "moment,part,r [m],z [m],grains,cn,zone\n";
-};
-
-/// Folders of synthetic runs: full vessels of four wedges, and sectors of 90 degrees whose law may be shifted.
-class Study {
-public:
-  std::vector<std::string> full(int runs) {
-    std::vector<std::string> folders;
-    for (int run = 0; run < runs; ++run) {
-      Files files;
-      Part whole = random_part(random_, 0);
-      files.add("wedge_90_0", whole, 1);
-      for (int k = 1; k < 4; ++k) {
-        const Part wedge = random_part(random_, 0);
-        files.add("wedge_90_" + std::to_string(k), wedge, 1);
-        whole = whole + wedge;
-      }
-      files.add("whole", whole, 4);
-      folders.push_back(scratch_ / ("full" + std::to_string(made_++)));
-      files.write(folders.back(), 360);
-    }
-    return folders;
-  }
-  std::vector<std::string> sectors(int runs, double shift, double angle = 90) {
-    std::vector<std::string> folders;
-    for (int run = 0; run < runs; ++run) {
-      Files files;
-      files.add("whole", random_part(random_, shift), 1);
-      folders.push_back(scratch_ / ("sector" + std::to_string(made_++)));
-      files.write(folders.back(), angle);
-    }
-    return folders;
-  }
-  std::string file(const std::string& name, const std::string& text) {
-    write_text_file_atomically(scratch_ / name, text);
-    return scratch_ / name;
-  }
-  std::string path(const std::string& name) const { return scratch_ / name; }
-
-private:
-  ScratchFolder scratch_;
-  RandomStream random_{5, 1};
-  int made_ = 0;
-};
 
 struct Said {
   int code = 0;
@@ -391,6 +275,25 @@ TEST_CASE("Scalars that only sectors and wedges have are compared with the wedge
   CHECK(row.at("quantity") == "cn_slope");
   CHECK(number(row, "reference") == 1.5);
   CHECK(number(row, "value") == 3.5);
+}
+
+TEST_CASE("Histograms of different bins are compared in the bins of both", "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  const std::string head = "moment,part,region,quantity,unit,scale,step,first,counts\nsettle,whole,all,vz,m/s,";
+  write_text_file_atomically(full[0] + "/results/distributions.csv", head + "1000000,1e-6,0,3 3 5 5\n");
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  for (const auto& [counts, wasserstein, ks] :
+       {std::make_tuple("0,6 10", 0.0, 0.0), std::make_tuple("1,6 10", 2.0, 0.625)}) {  // bins twice as wide
+    write_text_file_atomically(sector[0] + "/results/distributions.csv", head + "2000000,1e-6," + counts + "\n");
+    compare(full, sector, options);
+    std::map<std::string, double> found;
+    for (const Row& row : rows_of(options.csv))
+      if (row.at("kind") == "distribution") found[row.at("measure")] = number(row, "value");
+    CHECK(found.at("wasserstein") == Approx(wasserstein).margin(1e-6));
+    CHECK(found.at("ks") == Approx(ks).margin(1e-6));
+  }
 }
 
 TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {

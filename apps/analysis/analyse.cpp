@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/analysis/results.hpp"
+#include "core/parallel.hpp"
 #include "core/time_scales.hpp"
 #include "io/atomic_file.hpp"
 
@@ -67,14 +68,18 @@ SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, con
         for (const Part& part : parts)
           of_moment.push_back(std::make_unique<PartSums>(run, part, grid, mean_mass(bed)));
     }
+    std::vector<PartSums*> wanting;
     for (std::size_t m = 0; m < moments.size(); ++m) {
       if (!std::binary_search(moments[m].frames.begin(), moments[m].frames.end(), number)) continue;
-      for (auto& part : sums[m]) part->add(bed);
+      for (auto& part : sums[m]) wanting.push_back(part.get());
       if (moments[m].average) continue;
       append_slice(pictures.slice, pictures.network, moments[m].name, slice_picture(run, bed));
       append_cut(pictures.cut, moments[m].name,
                  cut_picture(run, bed, request.cut.value_or(bed.ground + 5 * run.diameter)));
     }
+    // Each adds to its own sums, one alone over its own blocks.
+    for_each_block(static_cast<Index>(wanting.size()),
+                   [&](Index k) { wanting[static_cast<std::size_t>(k)]->add(bed); });
   }
   return sums;
 }

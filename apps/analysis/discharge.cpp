@@ -90,11 +90,11 @@ bool arched(const std::vector<Crossing>& crossings, const Part& part, double beg
   });
 }
 
-double orifice_diameter(const AnalysedRun& run) {
-  if (run.slot) return 0;
-  for (const Stage& stage : run.scene.stages) {
+double orifice_diameter(const Scene& scene) {
+  if (scene.domain.kind == DomainKind::slot) return 0;
+  for (const Stage& stage : scene.stages) {
     for (const std::string& name : stage.remove) {
-      for (const WallDescription& wall : run.scene.walls) {
+      for (const WallDescription& wall : scene.walls) {
         if (wall.name != name) continue;
         double rim = 0;
         bool axis = false, flat = true;
@@ -111,7 +111,7 @@ double orifice_diameter(const AnalysedRun& run) {
 }
 
 Estimate beverloo_rate(const AnalysedRun& run, double packing) {
-  const double orifice = orifice_diameter(run), d = run.diameter;
+  const double orifice = orifice_diameter(run.scene), d = run.diameter;
   const auto rate = [&](double c, double k) {
     return c * packing * std::sqrt(run.gravity()) * std::pow(orifice - k * d, 2.5) / (numbers::pi / 6 * d * d * d);
   };

@@ -33,7 +33,7 @@ bool arched(const std::vector<Crossing>& crossings, const Part& part, double beg
 
 /// Diameter [m] of the hole in the middle of the floor that a stage opened by taking away a flat wall; 0: there is
 /// none.
-double orifice_diameter(const AnalysedRun& run);
+double orifice_diameter(const Scene& scene);
 
 /// Grains per second through a round orifice: C packing sqrt(g) (D0 - k d)^(5/2) / grain volume, with C 0.55, k 1.5
 /// and with C 0.64, k 1.4 (Beverloo, Leniger, van de Velde, Chem. Eng. Sci. 15, 1961). Nan without an orifice.

@@ -19,12 +19,10 @@ struct Bins {
   }
 };
 
-/// Counts by bin. Values that are not numbers are not counted.
+/// Counts by bin.
 class Histogram {
 public:
-  void add(const Bins& bins, double value, double weight = 1) {
-    if (std::isfinite(value)) counts_[bins.bin(value)] += weight;
-  }
+  void add(int bin) { counts_[bin] += 1; }
   const std::map<int, double>& counts() const { return counts_; }
   double total() const {
     double sum = 0;

@@ -102,23 +102,23 @@ void PartSums::add(const BedFrame& bed) {
   ++frames_;
 }
 
+void PartSums::count(double r, std::size_t kind, double value) {
+  if (!std::isfinite(value)) return;
+  const int bin = kinds_[kind].bins.bin(value);
+  for (std::size_t region = 0; region < part_.regions.size(); ++region)
+    if (part_.regions[region].holds(r)) histograms_[region * kinds_.size() + kind].add(bin);
+}
+
 void PartSums::add_distributions(const BedFrame& bed) {
   for (const BedGrain& g : bed.grains) {
     if (!g.in_bed || !part_.holds(g.azimuth)) continue;
     const std::vector<double> values = values_of(g, bed.has_forces);
-    for (std::size_t r = 0; r < part_.regions.size(); ++r) {
-      if (!part_.regions[r].holds(g.r)) continue;
-      for (std::size_t k = 0; k < values.size(); ++k)
-        histograms_[r * kinds_.size() + k].add(kinds_[k].bins, values[k]);
-    }
+    for (std::size_t k = 0; k < values.size(); ++k) count(g.r, k, values[k]);
   }
   if (!bed.has_forces) return;
   for (const BedContact& c : bed.contacts) {
     const BedGrain& g = bed.grains[static_cast<std::size_t>(c.first)];
-    if (!g.in_bed || !part_.holds(g.azimuth)) continue;
-    for (std::size_t r = 0; r < part_.regions.size(); ++r)
-      if (part_.regions[r].holds(g.r))
-        histograms_[r * kinds_.size() + load_kind].add(kinds_[load_kind].bins, c.load);
+    if (g.in_bed && part_.holds(g.azimuth)) count(g.r, load_kind, c.load);
   }
 }
 

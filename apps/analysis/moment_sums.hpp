@@ -91,6 +91,8 @@ public:
   bool has_forces() const { return has_forces_; }
 
 private:
+  /// Counts a value at r [m] in the regions that hold it; what is no number is not counted.
+  void count(double r, std::size_t kind, double value);
   void add_distributions(const BedFrame& bed);
   void add_rings(const BedFrame& bed);
   void add_fields_of(const BedFrame& bed);

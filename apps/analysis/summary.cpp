@@ -46,7 +46,7 @@ JsonObject domain_object(const AnalysedRun& run) {
   object.add("axis", axis_names.of(domain.axis));
   object.add_raw("diameter_m", short_json(run.diameter));
   object.add_raw("radius_m", short_json(run.radius));
-  object.add_raw("orifice_m", orifice_diameter(run) > 0 ? short_json(orifice_diameter(run)) : "null");
+  object.add_raw("orifice_m", orifice_diameter(run.scene) > 0 ? short_json(orifice_diameter(run.scene)) : "null");
   object.add_raw("gravity_m_s2", short_json(run.gravity()));
   return object;
 }

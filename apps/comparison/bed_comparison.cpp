@@ -93,8 +93,9 @@ void print_stage(const StageResult& stage, const Tables& reference, const Tables
   std::cout << "\nstage " << stage.stage << '\n' << table.text("  ");
 }
 
-/// Every stage that some run finished, in the order of the runs, and how many of each set finished it.
-void print_stages(const Tables& reference, const Tables& with) {
+/// Every stage that some run finished, in the order of the runs, and how many of each set finished it. Returns
+/// whether there was any.
+bool print_stages(const Tables& reference, const Tables& with) {
   std::vector<StageResult> stages;
   for (const Tables* tables : {&reference, &with})
     for (const auto& table : *tables)
@@ -112,14 +113,17 @@ void print_stages(const Tables& reference, const Tables& with) {
       std::cout << "  finished by " << first << " of " << reference.size() << " reference and " << second << " of "
                 << with.size() << " compared runs\n";
   }
-  if (stages.empty()) std::cout << "\nno run has a finished stage in results/beds.csv\n";
+  return !stages.empty();
 }
 
 }  // namespace
 
 void print_bed_comparison(const std::vector<std::string>& reference, const std::vector<std::string>& compared) {
   const Tables first = read_tables(reference), second = read_tables(compared);
-  print_stages(first, second);
+  if (!print_stages(first, second)) {
+    std::cout << "\nno run has a finished stage in results/beds.csv\n";
+    return;
+  }
   std::cout << "\nNumbers are those of the whole vessel, means over the runs, at the end of each stage. Spread: "
             << (reference.size() == 1
                     ? "not known from one run; several seeds give it: wedge run SCENE.toml -o FOLDER "

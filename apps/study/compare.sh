@@ -1,25 +1,28 @@
 #!/usr/bin/env bash
-# compare.sh: compares the runs in runs/ beside this file, sectors with the full vessels of their set, and writes a table
-# for each pair of ensembles into comparisons/. WEDGE: the program.
+# compare.sh RUNS COMPARISONS: compares the runs in the folder RUNS (such as runs/ beside this file), sectors with the full vessels
+# of their set, and writes a table for each pair of ensembles into COMPARISONS. WEDGE: the program.
 set -euo pipefail
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 wedge=${WEDGE:-$study/../../build/release/wedge}
 [ -x "$wedge" ] || { echo "error: $wedge: no such program; build it first: bash apps/demo.sh" >&2; exit 4; }
-cd "$study/runs"
-rm -rf ../comparisons
-mkdir -p ../comparisons
+[ $# -eq 2 ] || { echo "usage: bash apps/study/compare.sh RUNS COMPARISONS" >&2; exit 2; }
+runs=$1 comparisons=$2
+rm -rf "$comparisons"
+mkdir -p "$comparisons"
+comparisons=$(cd "$comparisons" && pwd)
+cd "$runs"
 
-# compared NAME REFERENCE WITH: sets of runs as patterns.
+# compared NAME REFERENCE WITH: sets of runs as patterns; nothing where one is empty.
 compared() {
   local reference with
   mapfile -t reference < <(compgen -G "$2" | sort -V)
   mapfile -t with < <(compgen -G "$3" | sort -V)
   [ ${#reference[@]} -gt 0 ] && [ ${#with[@]} -gt 0 ] || return 0
-  "$wedge" compare "${reference[@]}" --with "${with[@]}" --csv "../comparisons/$1.csv" >/dev/null
+  "$wedge" compare "${reference[@]}" --with "${with[@]}" --csv "$comparisons/$1.csv" >/dev/null
   echo "$1: ${#reference[@]} full, ${#with[@]} compared"
 }
 
-for set in pile hopper20 hopper40; do
+for set in pile hopper20 hopper40 small_hopper small_pile; do
   for angle in 90 60 45 30; do compared "${set}_a$angle" "$set/a360_s*" "$set/a${angle}_s*"; done
 done
 for bound in rigid frictionless images pin line; do

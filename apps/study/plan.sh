@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # plan.sh [SET...]: the runs of the study, one a line: SET/RUN, scene, then what `wedge run --set` sets, all separated
-# by blanks. Sets: pile hopper20 hopper40 sides angle. Without a set: all of them.
+# by blanks. Sets: pile hopper20 hopper40 sides angle, which make the study; without a set: all of these. And small_hopper,
+# small_pile, which take minutes.
 set -euo pipefail
 
 # vessel WIDTH ORIFICE COUNT: settings of a hopper WIDTH d wide with an orifice of ORIFICE d and COUNT grains (of the
@@ -23,6 +24,18 @@ pile() {
 hopper20() {  # a bed of 90 d
   for seed in 1 2 3 4 5 6 7 8; do for angle in 360 90 60 45 30; do
     echo "hopper20/a${angle}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle particles.seed=$seed"
+  done; done
+}
+small_hopper() {
+  for seed in 1 2; do for angle in 360 90 60 45 30; do
+    echo "small_hopper/a${angle}_s$seed hopper $(vessel 16 8 7920) domain.angle=$angle particles.seed=$seed"
+  done; done
+}
+small_pile() {  # 3/5 as wide and high
+  for seed in 1 2; do for angle in 360 90 60 45 30; do
+    echo "small_pile/a${angle}_s$seed pile wall.shell.profile=[[\"12_d\",\"-10_d\"],[\"12_d\",0],[\"12_d\",\"45_d\"]]" \
+      "wall.plate.profile=[[0,0],[\"9.6_d\",0]] wall.gate.profile=[[\"9.6_d\",0],[\"12_d\",0]] particles.count=5184" \
+      "particles.region={r=[0,\"12_d\"],z=[0,\"23_d\"]} domain.angle=$angle particles.seed=$seed"
   done; done
 }
 hopper40() {  # the paper's
@@ -70,7 +83,7 @@ angle() { all_thin | sort -s -n -k 1,1 | cut -d " " -f 2-; }  # the first seed o
 
 for name in "$@"; do
   case $name in
-    pile | hopper20 | hopper40 | sides | angle) "$name" ;;
+    pile | hopper20 | hopper40 | sides | angle | small_hopper | small_pile) "$name" ;;
     *) echo "error: '$name' is no set of the study: pile hopper20 hopper40 sides angle" >&2; exit 2 ;;
   esac
 done

@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
 # study.sh FOLDER [SET...]: makes the runs of plan.sh in FOLDER, analyses each, and keeps what is worth keeping of it in
-# runs/ beside this file. Runs that are there are not made again, interrupted ones go on: stop it and start it as you
-# like. WEDGE: the program; JOBS: runs at a time, one thread each (default: processors); KEEP=1 leaves frames in FOLDER.
+# runs/ beside this file (or in the folder RUNS). Runs that are there are not made again, interrupted ones go on: stop it
+# and start it as you like. WEDGE: the program; JOBS: runs at a time, one thread each (default: processors); KEEP=1
+# leaves frames in FOLDER; COMMIT=1 commits what was kept, at the end of each set.
 set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: bash apps/study/study.sh FOLDER [SET...]" >&2; exit 2; }
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export study
 export WEDGE=${WEDGE:-$study/../../build/release/wedge}
 [ -x "$WEDGE" ] || { echo "error: $WEDGE: no such program; build it first: bash apps/demo.sh" >&2; exit 4; }
+export runs=${RUNS:-$study/runs}
 export folder=$1
 shift
+[ $# -gt 0 ] || set -- pile hopper20 hopper40 sides angle
 
 state_of() { sed -n 's/.*"state": "\([a-z]*\)".*/\1/p' "$1/progress.json" 2>/dev/null || true; }
 
@@ -37,7 +40,7 @@ reduced() {
       rows "$from/distributions.csv" flow_mean >"$to/distributions.csv"
       rows "$from/radial.csv" flow_mean >"$to/radial.csv"
       ;;
-    pile/*)
+    *pile/*)
       rows "$from/scalars.csv" "settle|collapse|spread|pile" >"$to/scalars.csv"
       rows "$from/distributions.csv" "collapse|spread|pile" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|collapse|pile" >"$to/radial.csv"
@@ -49,7 +52,7 @@ reduced() {
       rows "$from/distributions.csv" "settle|open|flow_mean" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|open|flow_mean" >"$to/radial.csv"
       { rows "$from/map.csv" flow_mean; rows "$from/map.csv" "settle|open" whole | tail -n +2; } >"$to/map.csv"
-      case $1 in hopper40/*_s1) picture="open" ;; esac
+      case $1 in hopper40/*_s1 | small_hopper/*_s1) picture="open" ;; esac
       ;;
   esac
   if [ -n "$picture" ]; then
@@ -60,7 +63,7 @@ reduced() {
 
 # one RUN SCENE SETTING...
 one() {
-  local name=$1 scene=$2 run=$folder/$1 kept=$study/runs/$1 settings=() word
+  local name=$1 scene=$2 run=$folder/$1 kept=$runs/$1 settings=() word
   shift 2
   [ ! -e "$kept/results/summary.json" ] || return 0
   for word in "$@"; do settings+=(--set "${word//_d/ d}"); done
@@ -75,5 +78,8 @@ one() {
 }
 export -f analysed one reduced rows state_of
 
-bash "$study/plan.sh" "$@" | xargs -P "${JOBS:-$(nproc)}" -d '\n' -I LINE \
-  bash -c 'set -euo pipefail; read -ra words <<<"$1"; one "${words[@]}"' _ LINE
+for set in "$@"; do
+  bash "$study/plan.sh" "$set" | xargs -P "${JOBS:-$(nproc)}" -d '\n' -I LINE \
+    bash -c 'set -euo pipefail; read -ra words <<<"$1"; one "${words[@]}"' _ LINE
+  [ -z "${COMMIT:-}" ] || { git -C "$study" add "$runs/$set" && git -C "$study" commit -qm "Study: runs of $set" -- "$runs/$set"; }
+done

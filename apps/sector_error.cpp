@@ -1,0 +1,76 @@
+// sector_error.cpp: the laws that the study of angles found, with their factors.
+#include "apps/sector_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/analysis/discharge.hpp"
+#include "core/grain_sizes.hpp"
+#include "core/time_scales.hpp"
+#include "io/csv.hpp"
+#include "io/scene_checks.hpp"
+
+namespace wedge {
+namespace {
+
+/// error = factor (d / (D theta))^2.
+struct CoreLaw {
+  const char* quantity;
+  double factor, uncertainty;
+};
+// Printed by `python3 apps/study/rule.py`, rows "core".
+constexpr CoreLaw core_laws[] = {
+    {"packing fraction", 4.0, 0.2},
+    {"coordination number (distinct neighbours)", -3.4, 0.2},
+};
+// Share of arched sectors: 1 / (1 + exp((theta D0 / d - middle) / width)); the same command, "arches".
+constexpr double arch_middle = 7.0, arch_width = 0.9;
+
+constexpr double doubtful_error = 0.02, doubtful_share = 0.05;
+
+/// With one decimal, of a number in parts of one.
+std::string percent(double share) { return number_text(std::round(1000 * share) / 10); }
+
+}  // namespace
+
+SectorExpectation expected_errors(double theta, double width_in_diameters, double orifice_in_diameters) {
+  SectorExpectation expected;
+  const double core = std::pow(width_in_diameters * theta, -2);
+  for (const CoreLaw& law : core_laws)
+    expected.errors.push_back({law.quantity, law.factor * core, law.uncertainty * core});
+  if (orifice_in_diameters > 0)
+    expected.arched_share = 1 / (1 + std::exp((theta * orifice_in_diameters - arch_middle) / arch_width));
+  return expected;
+}
+
+std::optional<SectorExpectation> expected_errors(const Scene& scene) {
+  const Domain& domain = scene.domain;
+  const double diameter = mean_diameter(scene.particles), radius = widest_radius(scene);
+  if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic || domain.axis != AxisRule::clamp ||
+      !(diameter > 0 && radius > 0))
+    return std::nullopt;
+  return expected_errors(2 * numbers::pi / domain.order, 2 * radius / diameter, orifice_diameter(scene) / diameter);
+}
+
+std::string expectation_text(const SectorExpectation& expected) {
+  std::string text;
+  for (const ExpectedError& e : expected.errors)
+    text += (text.empty() ? "" : ", ") + e.quantity + (e.error > 0 ? " +" : " ") + percent(e.error) + " +- " +
+            percent(e.uncertainty) + " %";
+  if (expected.arched_share)
+    text += "; an arch stops " + number_text(std::round(100 * *expected.arched_share)) + " % of such sectors";
+  return text;
+}
+
+std::optional<std::string> expectation_warning(const Scene& scene) {
+  const std::optional<SectorExpectation> expected = expected_errors(scene);
+  if (!expected) return std::nullopt;
+  const bool wrong = std::any_of(expected->errors.begin(), expected->errors.end(),
+                                 [](const ExpectedError& e) { return std::abs(e.error) > doubtful_error; });
+  if (!wrong && !(expected->arched_share.value_or(0) > doubtful_share)) return std::nullopt;
+  return number_text(360.0 / scene.domain.order) +
+         " degrees here: expected against the full vessel (apps/study/README.md): " + expectation_text(*expected) +
+         ". Use a larger angle, or several seeds and the full vessel once";
+}
+
+}  // namespace wedge
