@@ -12,36 +12,43 @@ trap 'rm -rf "$scratch"' EXIT
 folder=${2:-$scratch}
 mkdir -p "$folder"
 
-# The page with a probe that writes what it finds into an element of its own.
-{
+# The page with a probe, which shows the page to itself in a frame (a window is never narrower than 500 pixels) and writes what it finds.
+probed() {
   cat "$page"
+  echo "<script>const width = $1;"
   cat <<'PROBE'
-<script>
 addEventListener("load", () => {
-  const images = [...document.images], said = [];
-  for (const image of images) if (!image.complete || image.naturalWidth === 0) said.push("not drawn: " + image.alt);
-  for (const image of images) if (!image.alt) said.push("an image without words");
-  for (const link of document.querySelectorAll("a[href^='#']"))
-    if (!document.getElementById(link.hash.slice(1))) said.push("leads nowhere: " + link.hash);
-  const ids = [...document.querySelectorAll("[id]")].map(e => e.id);
-  if (new Set(ids).size !== ids.length) said.push("an id occurs twice");
-  const wide = document.documentElement.scrollWidth;
-  if (wide > innerWidth) said.push("wider than the window: " + wide + " > " + innerWidth);
-  const result = document.createElement("p");
-  result.id = "probe";
-  result.textContent = "PROBE " + images.length + " images, height " + document.documentElement.scrollHeight + "; "
-    + (said.join("; ") || "sound") + " END";
-  document.body.append(result);
+  const text = document.documentElement.outerHTML.replace(/<script>const width[^]*$/, "");
+  const frame = document.createElement("iframe");
+  frame.style = "width: " + width + "px; height: 900px; border: 0";
+  frame.addEventListener("load", () => {
+    const page = frame.contentDocument, images = [...page.images], said = [];
+    for (const image of images) if (!image.complete || image.naturalWidth === 0) said.push("not drawn: " + image.alt);
+    for (const image of images) if (!image.alt) said.push("an image without words");
+    for (const link of page.querySelectorAll("a[href^='#']"))
+      if (!page.getElementById(link.hash.slice(1))) said.push("leads nowhere: " + link.hash);
+    const ids = [...page.querySelectorAll("[id]")].map(e => e.id);
+    if (new Set(ids).size !== ids.length) said.push("an id occurs twice");
+    const wide = page.documentElement.scrollWidth, room = frame.contentWindow.innerWidth;
+    if (room !== width || wide > room) said.push("wider than the window: " + wide + " in " + room);
+    const result = document.createElement("p");
+    result.textContent = "PROBE " + images.length + " images, height " + page.documentElement.scrollHeight + "; "
+      + (said.join("; ") || "sound") + " END";
+    document.body.replaceChildren(result);
+  });
+  frame.srcdoc = text;
+  document.body.append(frame);
 });
 </script>
 PROBE
-} >"$scratch/probed.html"
+}
 
 look() { "$browser" --headless=new --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$scratch/profile" "$@" 2>>"$scratch/log"; }
 
 failed=0
 for width in 1280 390; do
   : >"$scratch/log"
+  probed $width >"$scratch/probed.html"
   look --enable-logging=stderr --window-size=$width,900 --virtual-time-budget=20000 --dump-dom "file://$scratch/probed.html" >"$scratch/dom"
   result=$(grep -o 'PROBE [0-9].* END' "$scratch/dom" | tail -n 1 || true)
   echo "$width px: ${result:-no answer}"

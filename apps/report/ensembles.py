@@ -75,6 +75,11 @@ class Ensemble:
         found = [run.scalar(moment, quantity) for run in self.runs]
         return Sample([f[0] for f in found if f])
 
+    def flowing(self, moment, quantity):
+        """The same of the runs that had not stopped at the end of this moment."""
+        found = [(run.scalar(moment, quantity), run.scalar(moment, "arched")) for run in self.runs]
+        return Sample([value[0] for value, arched in found if value and not (arched and arched[0] == 1)])
+
     def arched(self, moment):
         """How many runs had stopped at the end of a moment: words, or "" where none had."""
         values = self.scalar(moment, "arched").values

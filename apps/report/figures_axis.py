@@ -3,7 +3,7 @@ import numpy as np
 
 from ensembles import Sample
 from figures_distributions import BAND, legend_text
-from style import FULL, Figure, Image, colour, curves, line_style, marker, svg
+from style import FULL, Figure, Image, colour, curves, frame_values, line_style, marker, svg
 
 
 def sectors(vessel):
@@ -151,21 +151,24 @@ def dots(axes, x, samples, members):
 
 
 def short(e):
-    return e.label.replace(", ", "\n")
+    return e.label.replace(", ", "\n").replace("axis ", "")
 
 
-DOTS = "Small dots: seeds; large ones: their mean with its 95 % interval (Student's t)."
+DOTS = ("Small dots: seeds; large ones: their mean with its 95 % interval (Student's t; of two seeds it may reach beyond the picture).")
 
 
-def scalar_dots(vessel, members, moment, quantity, label, scale=1.0, line=None, mark=None):
+def scalar_dots(vessel, members, moment, quantity, label, scale=1.0, line=None, band=None, band_name=""):
     samples = [e.scalar(moment, quantity) for e in members]
     samples = [Sample(s.values / scale) for s in samples]
     if not any(s.n for s in samples):
         return None
-    figure, axes = curves(2.9, max(3.7, 0.62 * len(members)))
-    if mark is not None:
-        mark(axes[0])
+    figure, axes = curves(2.9, max(3.7, 0.68 * len(members)))
     dots(axes[0], np.arange(len(members)), samples, members)
+    frame_values(axes[0], [s.values for s in samples], [x for x in (line,) if x is not None] + list(band or ()))
+    if band is not None:
+        axes[0].axhspan(*band, color="#d9d2c0", alpha=0.7, linewidth=0)
+        axes[0].text(0.98, sum(band) / 2, band_name, transform=axes[0].get_yaxis_transform(), ha="right", va="center",
+                     fontsize=8, color="#6a6250")
     if line is not None:
         axes[0].axhline(line, color="#1c1c1c", linewidth=0.9, linestyle=":")
     axes[0].set_ylabel(label)

@@ -34,21 +34,17 @@ def discharge_image(vessel):
 
 
 def beverloo(vessel, moment):
-    found = [vessel.full or vessel.gallery[0]]
-    low, high = (found[0].scalar(moment, q).mean for q in ("beverloo_low", "beverloo_high"))
+    """The band of Beverloo's law, or None."""
+    low, high = ((vessel.full or vessel.gallery[0]).scalar(moment, q).mean for q in ("beverloo_low", "beverloo_high"))
 
-    def mark(axes):
-        if np.isfinite(low) and np.isfinite(high):
-            axes.axhspan(low, high, color="#d9d2c0", alpha=0.7, linewidth=0)
-            axes.text(0.98, (low + high) / 2, "Beverloo", transform=axes.get_yaxis_transform(), ha="right", va="center",
-                      fontsize=8, color="#6a6250")
-    return mark
+    return (low, high) if np.isfinite(low) and np.isfinite(high) else None
 
 
 def discharge(vessel, moments):
     moments = [m for m in dict.fromkeys(moments) if m]
     images = [discharge_image(vessel)]
-    images += [scalar_dots(vessel, vessel.gallery, m, "discharge_rate", "discharge rate [1/s]", mark=beverloo(vessel, m)) for m in moments]
+    images += [scalar_dots(vessel, vessel.gallery, m, "discharge_rate", "discharge rate [1/s]", band=beverloo(vessel, m),
+                           band_name="Beverloo") for m in moments]
     arched = [(e, e.scalar(moments[-1], "arched")) for e in vessel.gallery] if moments else []
     told = "; ".join(f"{e.label}: {int(s.values.sum())} of {s.n}" for e, s in arched if s.n)
     caption = ("Thin lines are seeds, thick ones their means. Points: rate over the moment named below; band: Beverloo's law, "
@@ -70,13 +66,9 @@ def zhou(vessel):
 
 def repose(vessel, moment):
     known = zhou(vessel)
-
-    def mark(axes):
-        if known:
-            axes.axhspan(known - 3, known + 3, color="#d9d2c0", alpha=0.7, linewidth=0)
-            axes.text(0.98, known, f"Zhou et al. 2002: {known:.1f}\u00b0", transform=axes.get_yaxis_transform(), ha="right",
-                      va="center", fontsize=8, color="#6a6250")
-    images = [scalar_dots(vessel, vessel.gallery, moment, "angle_of_repose", "angle of repose [deg]", mark=mark),
+    band = (known - 3, known + 3) if known else None
+    images = [scalar_dots(vessel, vessel.gallery, moment, "angle_of_repose", "angle of repose [deg]", band=band,
+                          band_name=f"Zhou et al. 2002: {known:.1f}\u00b0" if known else ""),
               scalar_dots(vessel, vessel.gallery, moment, "grains", "grains left on the plate (whole vessel)")]
     caption = (f"Moment: {vessel.when(moment)}. Slope of the mean surface between 10 and 90 % of its height. Band: correlation of Zhou "
                f"et al. 2002 with its \u00b1 3\u00b0. {DOTS}")

@@ -7,13 +7,13 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from figures_axis import DOTS, scalar_dots
 from figures_flow import beverloo_line
-from style import Figure, Image, curves, plt, svg
+from style import Figure, Image, curves, frame_values, plt, svg
 from tables import cell, difference, percent, table
 
 # Vessels in this section: Okabe and Ito's colours, which colour-blind readers tell apart.
 TINTS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 SHAPES = "osD^vP*"
-STUDIED = [("cn", "rest", "CN at rest", 2), ("cn", "mean", "CN in flow", 2), ("packing", "rest", "packing fraction at rest", 1),
+STUDIED = [("cn", "rest", "CN at rest", 2), ("cn", "mean", "CN in flow", 2), ("cn_distinct", "mean", "CN of distinct neighbours in flow", 2), ("packing", "rest", "packing fraction at rest", 1),
            ("speed", "mean", "root mean square speed", 10), ("discharge_rate", "mean", "discharge rate", 10),
            ("axis_density_1d", "mean", "mass at r < d", 10), ("load", "mean", "mean contact force", 5)]
 AXES = [("angle", r"sector angle $\theta$ [deg]", lambda v, a: a),
@@ -33,17 +33,61 @@ def name_of(vessel):
     return f"D = {vessel.width:g} d, $D_0$ = {vessel.orifice:g} d, {vessel.count} grains"
 
 
-def error_image(vessels, quantity, role, words, limit, axis):
+def of_flow(e, moment, quantity, role):
+    """In flow only runs that flow are compared: arched ones are counted by themselves."""
+    return e.flowing(moment, quantity) if role == "mean" else e.scalar(moment, quantity)
+
+
+def dress(axes, vessels, key, label):
+    axes.set_xscale("log")
+    angles = sorted({e.angle for v in vessels for e in sectors_of(v)})
+    ticks = angles[::max(1, round(len(angles) / 7))] if key == "angle" else [1, 2, 4, 8, 16, 32, 64]
+    axes.xaxis.set_major_locator(FixedLocator(ticks))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.set_xlabel(label)
+
+
+def arched_image(vessels, axis):
+    """Share of sectors that stopped, with Wilson's 95 % interval."""
     key, label, place = axis
     figure, axes = curves(3.3, 4.0)
     for k, v in enumerate(vessels):
+        found = [(place(v, e.angle), e.scalar(v.roles()["mean"], "arched")) for e in sectors_of(v)]
+        found = [(x, s.mean, s.n) for x, s in found if s.n]
+        if not found:
+            continue
+        x, share, n = (np.array(column, dtype=float) for column in zip(*found))
+        z = 1.96
+        middle = (share + z * z / (2 * n)) / (1 + z * z / n)
+        half = z / (1 + z * z / n) * np.sqrt(share * (1 - share) / n + z * z / (4 * n * n))
+        spread = np.clip([share - (middle - half), middle + half - share], 0, None)
+        axes[0].errorbar(x, 100 * share, 100 * spread, marker=SHAPES[k % 7], color=TINTS[k % 7], capsize=2, linewidth=1.2,
+                         markersize=4.5, elinewidth=0.8, label=name_of(v))
+    if not axes[0].lines:
+        plt.close(figure)
+        return None
+    dress(axes[0], vessels, key, label)
+    axes[0].set_ylabel("sectors that arched [%]")
+    axes[0].set_ylim(-4, 104)
+    if key == "angle":
+        axes[0].legend(fontsize=7)
+    return Image(svg(figure), f"Share of sectors that arched against {key}", "")
+
+
+def error_image(vessels, quantity, role, words, limit, axis):
+    key, label, place = axis
+    figure, axes = curves(3.3, 4.0)
+    shown = [[-limit, limit]]
+    for k, v in enumerate(vessels):
         moment = v.roles()[role]
-        base = v.full.scalar(moment, quantity)
-        found = [(e, difference(e.scalar(moment, quantity), base)) for e in sectors_of(v)]
+        base = of_flow(v.full, moment, quantity, role)
+        found = [(e, difference(of_flow(e, moment, quantity, role), base)) for e in sectors_of(v)]
         found = [(place(v, e.angle), *f) for e, f in found if f is not None]
         if not found:
             continue
         x, y, half = (np.array(column, dtype=float) for column in zip(*found))
+        shown.append(y)
         axes[0].errorbar(x, y, np.nan_to_num(half), marker=SHAPES[k % 7], color=TINTS[k % 7], capsize=2, linewidth=1.2,
                          markersize=4.5, elinewidth=0.8, label=name_of(v))
     if not axes[0].lines:
@@ -51,15 +95,9 @@ def error_image(vessels, quantity, role, words, limit, axis):
         return None
     axes[0].axhspan(-limit, limit, color="#d9d2c0", alpha=0.6, linewidth=0)
     axes[0].axhline(0, color="#1c1c1c", linewidth=0.9)
-    axes[0].set_xscale("log")
-    angles = sorted({e.angle for v in vessels for e in sectors_of(v)})
-    ticks = angles[::max(1, round(len(angles) / 7))] if key == "angle" else [1, 2, 4, 8, 16, 32, 64]
-    axes[0].xaxis.set_major_locator(FixedLocator(ticks))
-    axes[0].xaxis.set_minor_locator(NullLocator())
-    axes[0].xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes[0].set_xlabel(label)
+    dress(axes[0], vessels, key, label)
     axes[0].set_ylabel("sector less full [%]")
-    axes[0].set_title(words, loc="left")
+    frame_values(axes[0], shown)
     if key == "angle":
         axes[0].legend(fontsize=7)
     return Image(svg(figure), f"Error of {words} against {key}", "")
@@ -76,10 +114,15 @@ def smallest_angles(vessels):
         images = [error_image(vessels, quantity, role, words, limit, axis) for axis in (AXES if several else AXES[:1])]
         if any(images):
             figures.append(Figure(f"Error against angle: {words}", images, f"Difference of the means of sectors and of the full vessel of "
-                                  f"the same size, with its 95 % interval (Student's t over seeds; none where an ensemble has one seed). "
+                                  f"the same size, with its 95 % interval (Student's t over seeds; none where an ensemble has one seed; of two it may reach beyond the picture). "
                                   f"Band: \u00b1 {limit} %."
+                                  + (" Runs that had arched are left out." if role == "mean" else "")
                                   + (" If the arc at the wall decides, curves fall together in the second picture; if the arc at the "
                                      "orifice decides, in the third." if several else "")))
+    images = [arched_image(vessels, axis) for axis in (AXES if several else AXES[:1])]
+    if any(images):
+        figures.append(Figure("Arching against angle", images, "Share of the sectors whose discharge had stopped, with its 95 % interval "
+                              "(Wilson)."))
     lines = {}
     for v in vessels:
         lines.setdefault(v.width, []).append(v)
@@ -93,9 +136,9 @@ def smallest_angles(vessels):
 def smallest(vessel, quantity, role, limit):
     """The smallest angle down to which every angle's error is within the limit, and whether intervals prove it."""
     moment = vessel.roles()[role]
-    base, best, sure = vessel.full.scalar(moment, quantity), None, True
+    base, best, sure = of_flow(vessel.full, moment, quantity, role), None, True
     for e in sectors_of(vessel):  # from wide to narrow
-        found = difference(e.scalar(moment, quantity), base)
+        found = difference(of_flow(e, moment, quantity, role), base)
         if found is None:
             continue
         if abs(found[0]) > limit:
@@ -119,7 +162,7 @@ def smallest_table(vessels):
     head = ["vessel"] + [f"{words}<br><small>within {limit} %</small>" for _, _, words, limit in STUDIED]
     head += ["by the paper's CN line", "6 d / D<sub>0</sub>"]
     return table(head, rows, "Smallest angle down to which the difference to the full vessel stays within the limit; \u201c?\u201d: within it, but "
-                 "the 95 % interval is not. Last two columns: two rules, (4.62 / (D/2d)) ((CN0/3 - 1) / (0.02 CN0))<sup>1/2</sup> for 2 % "
+                 "the 95 % interval is not. In flow, of runs that had not arched. Last two columns: two rules, (4.62 / (D/2d)) ((CN0/3 - 1) / (0.02 CN0))<sup>1/2</sup> for 2 % "
                  "in CN, and 6 d / D0.")
 
 

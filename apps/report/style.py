@@ -152,6 +152,15 @@ def curves(height=3.0, width=3.7, rows=1, ratios=None, sharex=True):
     return figure, axes[:, 0]
 
 
+def frame_values(axes, values, more=()):
+    """Lets the y axis span the values (and `more`), not the error bars: one of two seeds would hide everything."""
+    found = np.concatenate([np.asarray(v, dtype=float).ravel() for v in (*values, more)])
+    found = found[np.isfinite(found)]
+    if len(found):
+        margin = 0.35 * (found.max() - found.min()) or 0.05 * abs(found.max()) or 1.0
+        axes.set_ylim(found.min() - margin, found.max() + margin)
+
+
 def draw_walls(axes, walls, d, **style):
     """Profiles (r, z) on both sides of the axis."""
     look = {"color": "#333333", "linewidth": 1.4, "solid_capstyle": "round", "zorder": 5, "clip_on": True}

@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from ensembles import Sample, grouped
+from ensembles import grouped
 
 
 def table(head, rows, caption, first_is_name=True):
@@ -121,12 +121,6 @@ GLANCE = [("packing", "rest"), ("cn", "rest"), ("cn", "mean"), ("core_cn", "mean
           ("axis_density_1d", "mean"), ("discharge_rate", "mean"), ("arched", "mean"), ("angle_of_repose", "end")]
 
 
-def flowing_rate(e, moment):
-    """Discharge rates of the runs that had not stopped."""
-    found = [(run.scalar(moment, "discharge_rate"), run.scalar(moment, "arched")) for run in e.runs]
-    return Sample([rate[0] for rate, arched in found if rate and arched and arched[0] == 0])
-
-
 def glance(vessel):
     """Sectors against the full vessel: the few numbers that matter first."""
     members = [e for e in vessel.gallery if not e.full]
@@ -146,10 +140,10 @@ def glance(vessel):
             else:
                 row.append(f"{percent(difference(sample, base))} %" if sample.n else "\u2013")
         if name == "discharge_rate":
-            flowing = [flowing_rate(e, moment) for e in members]
+            flowing = [e.flowing(moment, name) for e in members]
             if any(f.n != s.n for f, s in zip(flowing, samples)):
                 rows.append(row)
-                base = flowing_rate(vessel.full, moment)
+                base = vessel.full.flowing(moment, name)
                 row = [f"<code>{name}</code> of runs that flow", cell(base)]
                 row += [f"{percent(difference(f, base))} %<br><small>{f.n} of {s.n}</small>" if f.n else "\u2013"
                         for f, s in zip(flowing, samples)]
