@@ -1,5 +1,5 @@
-# synthetic_run.py FOLDER ANGLE SEED [WIDTH [ORIFICE]]: the result files of a hopper that was never run, with known numbers: the test
-# of `wedge report` makes its runs with it. In them cn = 4 + seed / 10, discharge_rate = 1000 + 10 seed (less for sectors).
+# synthetic_run.py FOLDER ANGLE SEED [WIDTH [ORIFICE]]: the result files of a hopper (a sandpile with orifice 0) that was never run, with
+# known numbers: the test of `wedge report` makes its runs with it. In them cn = 4 + seed / 10, discharge_rate = 1000 + 10 seed (less for sectors).
 import json
 import math
 import os
@@ -12,6 +12,9 @@ orifice = float(sys.argv[5]) if len(sys.argv) > 5 else 4.0
 d, order, height = 0.005, round(360 / angle), 12
 full = order == 1
 moments = [("settle", "instant", 0.5, 0.5, 1), ("open", "instant", 1.2, 1.2, 1), ("flow_mean", "mean", 1.2, 2.0, 17)]
+if not orifice:
+    moments = [("settle", "instant", 0.5, 0.5, 1), ("collapse", "instant", 0.64, 0.64, 1), ("spread", "instant", 0.86, 0.86, 1),
+               ("pile", "instant", 2.0, 2.0, 1)]
 instants = [m[0] for m in moments if m[1] == "instant"]
 number = random.Random(seed * 1000 + order)
 results = os.path.join(folder, "results")
@@ -29,7 +32,7 @@ def scalars():
             "speed": (0.05, "m/s"), "axis_density_1d": (1 + loss, "-"), "axis_density_2d": (1 + loss / 2, "-"),
             "cn_slope": (0.4, "-"), "cn_intercept": (2.7, "-"), "cn_slope_paper": (0.5, "-"), "cn_intercept_paper": (2.5, "-"),
             "discharge_rate": ((1000 + 10 * seed) * (1 - loss), "1/s"), "arched": (0, "-"), "beverloo_low": (900, "1/s"),
-            "beverloo_high": (1200, "1/s")}
+            "beverloo_high": (1200, "1/s"), "angle_of_repose": (30 + seed, "deg")}
 
 
 def counts(first, last, centre, spread):
@@ -61,7 +64,7 @@ write("cut.csv", "moment,x [m],y [m],z [m],radius [m],cn,vz [m/s],layer",
 write("flow.csv", "time [s],out,rate [1/s]", [(0.05 * k, 50 * k, 1000 if k else "nan") for k in range(31)])
 
 domain = {"kind": "full" if full else "sector", "angle_deg": angle, "order": order, "sides": "periodic", "axis": "clamp", "diameter_m": d,
-          "radius_m": width / 2 * d, "orifice_m": orifice * d, "scene": "hopper"}
+          "radius_m": width / 2 * d, "orifice_m": orifice * d or None}
 cost = {"grains": 1200 // order, "steps": 1000, "wall_seconds": 100.0 / order, "threads": 1, "particle_steps_per_second": 1.2e7, "precision": "mixed"}
 summary = {"domain": domain, "cost": cost, "seed": seed,
            "moments": [dict(zip(("name", "kind", "begin_s", "end_s", "frames"), m)) for m in moments],
@@ -72,6 +75,8 @@ with open(os.path.join(folder, "provenance.json"), "w") as file:
     json.dump({"version": "0.1.0", "git_describe": "abc1234", "precision": "mixed", "threads": 1, "processor": "made up",
                "command_line": ["wedge", "run", "hopper.toml", "-o", os.path.basename(folder), "--set", f"domain.angle={angle:g}"]}, file)
 half = width / 2 * d
+closed = f"[0.0, 0.0], [{orifice / 2 * d}, 0.0]" if orifice else f"[{0.8 * half}, 0.0], [{half}, 0.0]"
+floor = f"[{orifice / 2 * d}, 0.0], [{half}, 0.0]" if orifice else f"[0.0, 0.0], [{0.8 * half}, 0.0]"
 with open(os.path.join(folder, "scene.resolved.toml"), "w") as file:
     file.write(f"""[domain]
 kind = "{domain['kind']}"
@@ -85,11 +90,11 @@ profile = [[{half}, 0.0], [{half}, {2 * height * d}]]
 
 [[wall]]
 name = "floor"
-profile = [[{orifice / 2 * d}, 0.0], [{half}, 0.0]]
+profile = [{floor}]
 
 [[wall]]
 name = "plug"
-profile = [[0.0, 0.0], [{orifice / 2 * d}, 0.0]]
+profile = [{closed}]
 
 [material.grain]
 density = 3800.0
@@ -104,15 +109,10 @@ material = "grain"
 count = 1200
 seed = {seed}
 
-[[stage]]
-name = "settle"
-remove = []
-
-[[stage]]
-name = "open"
-remove = ["plug"]
-
-[[stage]]
-name = "flow"
-remove = []
+[contact."grain-wall"]
+sliding = 0.5
+rolling = 1e-04
 """)
+    for number, name in enumerate(("settle", "open", "flow") if orifice else ("settle", "collapse", "spread", "pile")):
+        removed = '["plug"]' if number == 1 else "[]"
+        file.write(f'\n[[stage]]\nname = "{name}"\nremove = {removed}\n')

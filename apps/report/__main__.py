@@ -7,6 +7,7 @@ from html import escape
 
 import figures_axis
 import figures_distributions
+import figures_errors
 import figures_flow
 import figures_maps
 import figures_pictures
@@ -82,7 +83,7 @@ def slot(section, v):
 
 
 def gallery(v):
-    members = ", ".join(f"{e.label} (seeds {e.seeds()})" for e in v.gallery)
+    members = ", ".join(f"{e.label} (seed{'s' if len(e.runs) != 1 else ''} {e.seeds()})" for e in v.gallery)
     section = Section(v.id, v.title, f"<p>{escape(members)}. d = {1e3 * v.d:g} mm.</p>")
     section.text("At a glance", tables.glance(v))
     (slot if not v.main else hopper if v.hopper else pile)(section, v)
@@ -110,10 +111,9 @@ def study(vessels, comparisons):
         sections.append(section)
     if comparisons:
         section = Section("errors", "Errors against the full vessel")
-        for figure in figures_study.yardsticks(comparisons):
-            section.figure(figure)
-        for c in comparisons:
-            section.text(f"Comparison {c.name}", figures_study.comparison_table(c))
+        for name, members in figures_errors.groups(comparisons):
+            section.figure(figures_errors.figure(name, members))
+            section.text(f"Table of errors: {name}", figures_errors.error_table(name, members))
         sections.append(section)
     return sections
 
@@ -146,7 +146,7 @@ def main():
         print(f"wedge: no results in {', '.join(arguments.folders)}: run `wedge analyse` first", file=sys.stderr)
         return 4
     files = list(dict.fromkeys([os.path.abspath(f) for f in arguments.compare] + found))
-    comparisons = [figures_study.Comparison(f) for f in files]
+    comparisons = [figures_errors.Comparison(f) for f in files]
     vessels = sort_into_vessels(runs)
     lead = ("<p>Full vessels beside sectors of 360/n degrees with rotated, periodic faces: flow patterns, coordination numbers, "
             "velocities, forces, discharge and heaps, drawn like the figures of Yang, Zhou, Pinson and Yu, <cite>Ind. Eng. Chem. "
@@ -157,9 +157,9 @@ def main():
     sections[0].parts.append(("Vessels and seeds", overview(vessels)))
     sections += [gallery(v) for v in chosen(vessels)] + study(vessels, comparisons)
     definitions = Section("definitions", "Definitions")
-    path = os.path.join(HERE, "definitions.md")
-    with open(path, encoding="utf-8") as file:
-        definitions.intro = markdown.to_html(file.read(), 3)
+    for name in ("definitions.md", "comparisons.md"):
+        with open(os.path.join(HERE, name), encoding="utf-8") as file:
+            definitions.intro += markdown.to_html(file.read(), 3)
     own = "wedge report " + " ".join(short_path(f) for f in arguments.folders) + f" -o {os.path.basename(arguments.output)}"
     origin = Section("provenance", "Provenance")
     origin.text("Runs", provenance(runs))

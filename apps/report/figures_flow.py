@@ -19,7 +19,8 @@ def discharge_image(vessel):
             for k, t in enumerate(tables):
                 values[k, :t.rows] = t[column]
             mean, sd = mean_and_sd(values)
-            axes[row].plot(longest["time"], values.T, color=colour(e), linewidth=0.5, alpha=0.35)
+            if row == 0:
+                axes[row].plot(longest["time"], values.T, color=colour(e), linewidth=0.5, alpha=0.35)
             axes[row].plot(longest["time"], mean, label=legend_text(e, tables), **line_style(e))
     if not axes[0].lines:
         figure.clf()
@@ -50,7 +51,7 @@ def discharge(vessel, moments):
     images += [scalar_dots(vessel, vessel.gallery, m, "discharge_rate", "discharge rate [1/s]", mark=beverloo(vessel, m)) for m in moments]
     arched = [(e, e.scalar(moments[-1], "arched")) for e in vessel.gallery] if moments else []
     told = "; ".join(f"{e.label}: {int(s.values.sum())} of {s.n}" for e, s in arched if s.n)
-    caption = ("Left: thin lines are seeds, thick ones their means. Right: rate over the moment named below; band: Beverloo's law, "
+    caption = ("Thin lines are seeds, thick ones their means. Points: rate over the moment named below; band: Beverloo's law, "
                f"C 0.55, k 1.5 to C 0.64, k 1.4, with the packing before opening. {DOTS}"
                + (f" Runs that had arched at the end ({moments[-1]}): {told}." if told else ""))
     return Figure("Discharge", images, caption)

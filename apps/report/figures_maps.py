@@ -1,6 +1,8 @@
 # figures_maps.py: fields over (r, z) with their mirror image, means over seeds: CN, velocity, packing, pressure, zones.
 import numpy as np
 
+from matplotlib.colors import ListedColormap
+
 from style import DIVERGING, SEQUENTIAL, ZONES, Figure, Image, draw_walls, panel, plt, raster, scale_bar, strip_layout
 
 BED = 0.15  # packing below which a cell is not drawn: no bed there
@@ -9,9 +11,9 @@ BED = 0.15  # packing below which a cell is not drawn: no bed there
 class Quantity:
     """What a map shows: columns of map.csv, their unit in `scale` of the vessel, words and colours."""
 
-    def __init__(self, columns, words, symbol, scale, cmap=SEQUENTIAL, zero=False, sign=1, more=""):
+    def __init__(self, columns, words, symbol, scale, cmap=SEQUENTIAL, zero=False, sign=1, more="", span=None):
         self.columns, self.words, self.symbol, self.scale = columns, words, symbol, scale
-        self.cmap, self.zero, self.sign, self.more = cmap, zero, sign, more
+        self.cmap, self.zero, self.sign, self.more, self.span = cmap, zero, sign, more, span
 
     def grid(self, vessel, e, moment):
         """r, z [d], value; nan where there is no bed."""
@@ -38,7 +40,7 @@ def layer_weight(vessel):
 QUANTITIES = {
     "cn": Quantity(["cn"], "coordination number", "CN", lambda v: 1),
     "vz": Quantity(["vz"], "vertical velocity, downwards", r"$-v_z\,/\,\sqrt{g\,d}$", froude, plt.get_cmap("magma_r"), True, -1),
-    "packing": Quantity(["packing"], "packing fraction", r"$\phi$", lambda v: 1, plt.get_cmap("cividis")),
+    "packing": Quantity(["packing"], "packing fraction", r"$\phi$", lambda v: 1, plt.get_cmap("cividis"), span=(0.35, 0.75)),
     "pressure": Quantity(["prr", "ptt", "pzz"], "pressure", r"$p\,/\,(\rho\,g\,d)$", layer_weight,
                          plt.get_cmap("YlGnBu"), True,
                          more=" Pressure: a third of the trace of the tensor, in the weight of one layer of grains."),
@@ -86,7 +88,7 @@ def maps(vessel, name, moment, paper=None):
     grids = [(e, g) for e, g in grids if g is not None]
     if not grids:
         return None
-    low, high = limits([g for _, g in grids], quantity.zero)
+    low, high = quantity.span or limits([g for _, g in grids], quantity.zero)
     view = view_of(vessel, [g for _, g in grids])
     images = [draw(vessel, e, moment, g, view, quantity.cmap, low, high, quantity.words) for e, g in grids]
     images.append(scale_bar(quantity.cmap, low, high, f"{quantity.words}  {quantity.symbol}", extend="max" if quantity.zero else "both"))
@@ -128,8 +130,9 @@ def zones(vessel, moment):
         return None
     view = view_of(vessel, [g for _, g in grids])
     images = [draw(vessel, e, moment, g, view, ZONES, -0.5, 3.5, "flow zones", smooth=False) for e, g in grids]
-    images.append(scale_bar(ZONES, 0, 3, "zone", ticks=[1, 2, 3], names=["stagnant", "plug", "converging"],
-                            boundaries=[-0.5, 0.5, 1.5, 2.5, 3.5]))
+    shown = ListedColormap([ZONES(k) for k in (1, 2, 3)])
+    images.append(scale_bar(shown, 0, 3, "zone", ticks=[1, 2, 3], names=["stagnant", "plug", "converging"],
+                            boundaries=[0.5, 1.5, 2.5, 3.5]))
     caption = (f"Moment: {vessel.when(moment)}. Stagnant: slower than a tenth of a plug as wide as the vessel (v0); plug: 0.5 to 1.5 v0 "
                "and nearly vertical; converging: the rest. Each cell has the zone of most seeds. Blank: no bed, or no discharge.")
     return Figure(f"Flow zones, {moment}", images, caption, None, strip_layout(*view))

@@ -1,16 +1,12 @@
-# figures_study.py: across vessels: how narrow a sector may be, what bounds it, and errors in units of their yardstick.
+# figures_study.py: across vessels: how narrow a sector may be, and what bounds it.
 import math
-import os
-import re
 from html import escape
 
 import numpy as np
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from figures_axis import DOTS, scalar_dots
 from figures_flow import beverloo_line
-from read import Table, number
 from style import Figure, Image, curves, plt, svg
 from tables import cell, difference, percent, table
 
@@ -157,92 +153,3 @@ def sides(vessel, vessels):
               scalar_dots(vessel, members, roles["rest"], "packing", "packing fraction at rest"),
               scalar_dots(vessel, members, roles["mean"], "axis_density_1d", "mass at r < d, over that of the bulk", line=1)]
     return Figure("What bounds a sector: sides and axis", images, DOTS, layout="wide", extra=text)
-
-
-class Comparison:
-    """A file of `wedge compare --csv`."""
-
-    def __init__(self, path):
-        self.name = os.path.splitext(os.path.basename(path))[0]
-        self.rows = Table.read(path)
-        head = re.match(r"(.*?)[_-]*(?:a|angle)?(\d+)$", self.name)
-        self.group, self.angle = (head[1], float(head[2])) if head else (self.name, float("nan"))
-
-    def entries(self):
-        names = self.rows.columns
-        for k in range(self.rows.rows):
-            yield {n: names[n][k] for n in names}
-
-
-def value_of(entry, name):
-    return number(entry.get(name, "nan"))
-
-
-def is_beyond(entry):
-    return str(entry.get("beyond", "")).strip().lower() in ("1", "1.0", "yes", "true", "beyond")
-
-
-def yardsticks(comparisons):
-    """A picture for each moment: error over yardstick, quantities down, comparisons across."""
-    figures = []
-    for group in dict.fromkeys(c.group for c in comparisons):
-        members = sorted((c for c in comparisons if c.group == group), key=lambda c: -c.angle)
-        images = []
-        for moment in dict.fromkeys(entry["moment"] for c in members for entry in c.entries()):
-            images.append(yardstick_image(members, moment))
-        figures.append(Figure(f"Errors against the full vessel, in yardsticks: {group}", images,
-                              "Error of each quantity (region all) over its yardstick, the same error between sets of full runs or wedges of "
-                              "them: 1 and below is as good as another full run of as many grains; a dot marks errors beyond the "
-                              "yardstick's interval. Measures: difference of means, Wasserstein and Kolmogorov-Smirnov distance of "
-                              "distributions, root mean square over profiles and maps.", layout="wide"))
-    return figures
-
-
-def yardstick_image(members, moment):
-    cells, names = {}, []
-    for column, c in enumerate(members):
-        for entry in c.entries():
-            ratio = abs(value_of(entry, "value")) / value_of(entry, "yardstick") if value_of(entry, "yardstick") > 0 else np.nan
-            if entry["moment"] == moment and entry.get("region", "all") in ("all", "") and np.isfinite(ratio):
-                name = f"{entry['quantity']}, {entry.get('kind', '')}, {entry.get('measure', '')}"
-                names += [name] if name not in names else []
-                cells[names.index(name), column] = (ratio, is_beyond(entry))
-    if not names:
-        return None
-    image = np.full((len(names), len(members)), np.nan)
-    for (row, column), (ratio, _) in cells.items():
-        image[row, column] = ratio
-    limits = [0, 0.5, 1, 1.5, 2, 3, 5, 10]
-    cmap = ListedColormap(["#f7f4ec", "#ece5d0", "#f3d9a4", "#f0b878", "#e48f5c", "#cf5b46", "#a02f43"])
-    figure, axes = plt.subplots(figsize=(2.6 + 0.55 * len(members), 0.8 + 0.19 * len(names)), constrained_layout=True)
-    axes.imshow(np.ma.masked_invalid(image), cmap=cmap, norm=BoundaryNorm(limits, cmap.N, clip=True), aspect="auto")
-    for (row, column), (ratio, beyond) in cells.items():
-        axes.text(column, row, f"{ratio:.1f}" + ("\u2022" if beyond else ""), ha="center", va="center", fontsize=7,
-                  color="white" if ratio > 3 else "#222222")
-    axes.set_xticks(range(len(members)))
-    axes.set_xticklabels([f"{c.angle:g}\u00b0" if np.isfinite(c.angle) else c.name for c in members])
-    axes.set_yticks(range(len(names)))
-    axes.set_yticklabels(names, fontsize=7)
-    axes.grid(False)
-    axes.tick_params(length=0)
-    return Image(svg(figure), f"Errors in units of the yardstick, moment {moment}", f"moment {moment}")
-
-
-def comparison_table(comparison):
-    rows = []
-    for entry in comparison.entries():
-        interval = lambda a, b: f"{cell_of(entry, a)} \u2026 {cell_of(entry, b)}"  # noqa: E731
-        relative = value_of(entry, "relative")
-        words = [escape(str(entry.get(n, ""))) for n in ("quantity", "moment", "region", "kind", "measure", "unit")]
-        row = words + [cell_of(entry, "reference"), cell_of(entry, "compared"), cell_of(entry, "value"), interval("low", "high"),
-                       f"{100 * relative:.2f} %" if math.isfinite(relative) else "\u2013", cell_of(entry, "yardstick"),
-                       interval("yardstick_low", "yardstick_high"), "<strong>beyond</strong>" if is_beyond(entry) else "within"]
-        rows.append(row)
-    head = ["quantity", "moment", "region", "kind", "measure", "unit", "reference", "compared", "value", "95 % interval", "relative",
-            "yardstick", "its interval", "verdict"]
-    return table(head, rows, f"<code>{escape(comparison.name)}</code>: errors against the reference, beside the yardstick.")
-
-
-def cell_of(entry, name):
-    from tables import minus, shown
-    return minus(shown(value_of(entry, name)))

@@ -34,7 +34,7 @@ figure h3 { margin: 0 0 .5rem; font-size: 1.05rem; }
 figure small, figure .soft, figure .caption, figure figcaption { color: #57606a; }
 figure .scroll, figure .scroll th { background: #fff; color: #1b1f24; border-color: #d5d9de; } figure .scroll td { border-color: #d5d9de; }
 .images { display: grid; gap: .5rem .7rem; align-items: start; }
-.strip .images { grid-template-columns: repeat(auto-fit, minmax(min(10.5rem, 44%), 13rem)); justify-content: space-between; }
+.strip .images { grid-template-columns: repeat(auto-fit, minmax(min(10.5rem, 44%), 13rem)); }
 .panels .images { grid-template-columns: repeat(auto-fill, minmax(min(18rem, 100%), 1fr)); }
 .curves .images { grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); }
 .wide .images { grid-template-columns: repeat(auto-fill, minmax(min(26rem, 100%), 1fr)); }
@@ -62,15 +62,17 @@ pre { overflow: auto; max-height: 30rem; background: var(--paper); border: 1px s
   line-height: 1.45; }
 footer { padding: 2rem 1.1rem 3rem; color: var(--soft); font-size: .88rem; }
 @media (max-width: 40rem) { main, header, footer { padding-left: .7rem; padding-right: .7rem; } figure { padding: .6rem; }
-  nav > ol { columns: 1; } nav ol ol { display: none; } .strip .images { gap: .4rem .2rem; } }
+  nav > ol { columns: 1; } nav ol ol { display: none; } .strip .images { grid-template-columns: 1fr 1fr; gap: .4rem .2rem; }
+  tbody th:not(.within) { white-space: normal; min-width: 6.5rem; max-width: 9rem; } th, td { padding-left: .45rem; padding-right: .45rem; } }
 @media print { @page { size: A4; margin: 14mm 12mm; }
   :root { --ink: #000; --soft: #444; --line: #bbb; --paper: #fff; --ground: #fff; --accent: #000; }
   body { font-size: 9.5pt; background: #fff; } main, header, footer { max-width: none; padding: 0; } a { text-decoration: none; }
   .scroll, pre { overflow: visible; max-height: none; } pre { white-space: pre-wrap; } thead th { position: static; }
   table { font-size: 7pt; } th, td { padding: .1rem .3rem; white-space: normal; } td { min-width: 0 !important; }
-  figure { border: 0; padding: 0; } .image { break-inside: avoid; } figcaption { break-before: avoid; } h2, h3, h4 { break-after: avoid; }
-  tr { break-inside: avoid; } .strip .images { grid-template-columns: repeat(5, 1fr); } .panels .images,
-  .wide .images { grid-template-columns: repeat(2, 1fr); } .curves .images { grid-template-columns: repeat(3, 1fr); }
+  nav > ol { columns: 2; } .yard { display: none; }
+  figure { border: 0; padding: 0; break-inside: avoid; } .images { break-before: avoid; } .image { break-inside: avoid; } figcaption { break-before: avoid; } h2, h3, h4 { break-after: avoid; }
+  tr { break-inside: avoid; } .strip .images { grid-template-columns: repeat(5, 1fr); } .wide .images { grid-template-columns:
+  repeat(2, 1fr); } .panels .images { grid-template-columns: repeat(3, 1fr); } .curves .images { grid-template-columns: repeat(3, 1fr); }
   .strip .image img { max-height: 150mm; width: auto; max-width: 100%; } }
 """
 
@@ -161,6 +163,7 @@ def provenance(runs):
 
 
 def commands(runs, comparisons, own):
+    """What was typed, as far as runs know it."""
     lines = ["# each run, as it was started (paths cut to their last two names)"]
     lines += [command for command in (command_of(run) for run in runs) if command]
     lines += ["", "# what each measured", "wedge analyse DIR", "", "# errors against full vessels"]

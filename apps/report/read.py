@@ -197,15 +197,14 @@ def is_run(folder):
 
 
 def find_runs(folders):
-    """The runs that the folders are or have up to two levels below, and the comparisons beside them."""
-    runs, comparisons = [], []
-    for folder in folders:
-        found = [folder] if is_run(folder) else []
-        below = sorted(glob.glob(os.path.join(glob.escape(folder), "*", ""))
-                       + glob.glob(os.path.join(glob.escape(folder), "*", "*", "")))
-        if not found:
-            found = [f.rstrip(os.sep) for f in below if is_run(f)]
-        runs += [f for f in found if os.path.abspath(f) not in {os.path.abspath(r) for r in runs}]
-        for place in [folder] + below:
-            comparisons += sorted(glob.glob(os.path.join(glob.escape(place), "comparisons", "*.csv")))
-    return [Run(f) for f in runs], list(dict.fromkeys(os.path.abspath(c) for c in comparisons))
+    """The runs that the folders are or have up to three levels below, and the comparisons beside them."""
+    runs, comparisons = {}, {}
+    places = [(folder, 0) for folder in folders]
+    while places:
+        folder, depth = places.pop(0)
+        comparisons.update((os.path.abspath(c), None) for c in sorted(glob.glob(os.path.join(glob.escape(folder), "comparisons", "*.csv"))))
+        if is_run(folder):  # and nothing of what is in it
+            runs.setdefault(os.path.abspath(folder), folder)
+        elif depth < 3:
+            places += [(f.rstrip(os.sep), depth + 1) for f in sorted(glob.glob(os.path.join(glob.escape(folder), "*", "")))]
+    return [Run(f) for f in runs.values()], list(comparisons)

@@ -75,8 +75,19 @@ def svg(figure):
     text = out.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"\n\s*", "\n", re.sub(r"<!--.*?-->", "", text, flags=re.S))
-    text = re.sub(r'(?<= )d="[^"]*"', lambda path: re.sub(r"(\d+\.\d)\d+", r"\1", path[0]), text)
-    return "data:image/svg+xml;base64," + base64.b64encode(text.encode()).decode()
+    text = re.sub(r' d="([^"]*)"', lambda path: f' d="{short_path(path[1])}"', text)
+    text = re.sub(r'<g id="[^"]*"', "<g", text)  # names that nothing refers to
+    text = re.sub(r'(?<= )([xy])="(-?\d+\.\d)\d+"', r'\1="\2"', text)
+    text = re.sub(r"\s+", " ", text.replace(": ", ":").replace("; ", ";").replace("> <", "><")).replace('"', "'")
+    for sign in ("%", "#", "<", ">", " ", "&", "{", "}"):
+        text = text.replace(sign, f"%{ord(sign):02X}")
+    return "data:image/svg+xml," + text
+
+
+def short_path(text):
+    """Path data to a tenth of a point, without needless blanks."""
+    text = re.sub(r"(\d+\.\d)\d+", r"\1", text)
+    return re.sub(r"\s+", ",", re.sub(r"\s*([A-Za-z])\s*", r"\1", text.strip()))
 
 
 def raster(figure, dpi=200, quality=78):

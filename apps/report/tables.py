@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from ensembles import grouped
+from ensembles import Sample, grouped
 
 
 def table(head, rows, caption, first_is_name=True):
@@ -30,7 +30,7 @@ def digits(value, of):
         return "\u2013"
     if not math.isfinite(of) or of <= 0:
         return shown(value)
-    decimals = 1 - math.floor(math.log10(of))
+    decimals = 1 - math.floor(math.log10(float(f"{of:.1e}")))
     if decimals < 0 or abs(value) >= 1e6:
         return shown(value) if abs(value) >= 1e6 else f"{round(value, decimals):.0f}"
     if decimals > 6:
@@ -121,6 +121,12 @@ GLANCE = [("packing", "rest"), ("cn", "rest"), ("cn", "mean"), ("core_cn", "mean
           ("axis_density_1d", "mean"), ("discharge_rate", "mean"), ("arched", "mean"), ("angle_of_repose", "end")]
 
 
+def flowing_rate(e, moment):
+    """Discharge rates of the runs that had not stopped."""
+    found = [(run.scalar(moment, "discharge_rate"), run.scalar(moment, "arched")) for run in e.runs]
+    return Sample([rate[0] for rate, arched in found if rate and arched and arched[0] == 0])
+
+
 def glance(vessel):
     """Sectors against the full vessel: the few numbers that matter first."""
     members = [e for e in vessel.gallery if not e.full]
@@ -131,7 +137,7 @@ def glance(vessel):
         moment = roles[role]
         base = vessel.full.scalar(moment, name)
         samples = [e.scalar(moment, name) for e in members]
-        if not base.n or not any(s.n for s in samples):
+        if not base.n or not any(s.n for s in samples) or (name == "arched" and not vessel.hopper):
             continue
         row = [f"<code>{name}</code>, {escape(str(moment))}", cell(base)]
         for sample in samples:
@@ -139,10 +145,18 @@ def glance(vessel):
                 row.append(f"{int(sample.values.sum())} of {sample.n}")
             else:
                 row.append(f"{percent(difference(sample, base))} %" if sample.n else "\u2013")
+        if name == "discharge_rate":
+            flowing = [flowing_rate(e, moment) for e in members]
+            if any(f.n != s.n for f, s in zip(flowing, samples)):
+                rows.append(row)
+                base = flowing_rate(vessel.full, moment)
+                row = [f"<code>{name}</code> of runs that flow", cell(base)]
+                row += [f"{percent(difference(f, base))} %<br><small>{f.n} of {s.n}</small>" if f.n else "\u2013"
+                        for f, s in zip(flowing, samples)]
         if name == "arched":
             row[1] = f"{int(base.values.sum())} of {base.n}"
         rows.append(row)
-    head = ["quantity, moment", f"full<br><small>{len(vessel.full.runs)} seeds</small>"] + heads(members)
+    head = ["quantity, moment"] + heads([vessel.full] + members)
     return table(head, rows, "Full vessel: mean \u00b1 standard deviation over seeds. Sectors: difference of the means to the full "
                  "vessel in per cent \u00b1 half width of its 95 % interval (Student's t over seeds). Arched: runs that had stopped."
                  ) if rows else ""
