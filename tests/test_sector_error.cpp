@@ -1,0 +1,48 @@
+// test_sector_error.cpp: what the study expects of a sector: how it scales, for which scenes it is told, and when it warns.
+#include <cmath>
+
+#include "apps/sector_error.hpp"
+#include "io/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/laboratory.hpp"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+Scene hopper(const std::vector<std::string>& overrides) {
+  return read_scene(std::string(WEDGE_SOURCE_DIR) + "/apps/scenes/hopper.toml", overrides);
+}
+
+}  // namespace
+
+TEST_CASE("Expected errors fall with the square of the angle and of the vessel, arches with the arc at the orifice") {
+  const SectorExpectation wide = expected_errors(pi / 2, 20, 8), thin = expected_errors(pi / 4, 20, 8),
+                          large = expected_errors(pi / 4, 40, 8);
+  REQUIRE(wide.errors.size() == thin.errors.size());
+  for (std::size_t k = 0; k < wide.errors.size(); ++k) {
+    CHECK(thin.errors[k].error == Approx(4 * wide.errors[k].error));
+    CHECK(large.errors[k].error == Approx(wide.errors[k].error));
+    CHECK(thin.errors[k].uncertainty > 0);
+  }
+  CHECK(thin.errors.front().quantity == "packing fraction");
+  CHECK(thin.errors.front().error > 0);  // the core is too dense
+  CHECK(*thin.arched_share > *wide.arched_share);
+  CHECK(*thin.arched_share == *large.arched_share);
+  CHECK(!expected_errors(pi / 4, 20, 0).arched_share);  // a sandpile has no orifice
+}
+
+TEST_CASE("wedge check expects errors of sectors with periodic sides and the axis clamp, and of nothing else") {
+  for (const char* other : {"domain.angle=360", "domain.axis=images", "domain.sides=rigid"})
+    CHECK(!expected_errors(hopper({"domain.angle=90", other})));
+  const auto expected = expected_errors(hopper({"domain.angle=45"}));
+  REQUIRE(expected);
+  CHECK(expected->errors.front().error == Approx(expected_errors(pi / 4, 40, 8).errors.front().error).epsilon(1e-9));
+  CHECK(*expected->arched_share == Approx(*expected_errors(pi / 4, 40, 8).arched_share).epsilon(1e-9));
+  CHECK_THAT(expectation_text(*expected), Catch::Contains("packing fraction +") && Catch::Contains("an arch stops"));
+  CHECK(!expectation_warning(hopper({"domain.angle=180"})));
+  const auto warning = expectation_warning(hopper({"domain.angle=15"}));
+  REQUIRE(warning);
+  CHECK_THAT(*warning, Catch::StartsWith("15 degrees here: "));
+}
