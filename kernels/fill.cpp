@@ -119,11 +119,14 @@ private:
 Vec3 draw_place(const Scene& scene, const RandomFill& fill, double radius, RandomStream& random) {
   const double a = random.uniform(), b = random.uniform(),
                z = random.uniform(fill.z_low + radius, fill.z_high - radius);
+  const double high = fill.r_high - radius;
+  if (scene.domain.kind == DomainKind::slot) {
+    const double left = fill.r_low + radius;
+    return {left + a * (high - left), b * scene.domain.slot_width, z};
+  }
   const double inner =
       std::max(fill.r_low, scene.domain.axis == AxisRule::hollow ? scene.domain.inner_radius : 0.0);
-  const double low = inner + (inner > 0 || scene.domain.kind == DomainKind::slot ? radius : 0),
-               high = fill.r_high - radius;
-  if (scene.domain.kind == DomainKind::slot) return {low + a * (high - low), b * scene.domain.slot_width, z};
+  const double low = inner + (inner > 0 ? radius : 0);
   const double r = std::sqrt(low * low + a * (high * high - low * low)), phi = b * 2 * pi / scene.domain.order;
   return {r * std::cos(phi), r * std::sin(phi), z};
 }

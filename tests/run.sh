@@ -112,7 +112,7 @@ case "$mode" in
   "" | --nightly | --validate)
     needed=()
     command -v g++ >/dev/null || needed+=(g++)
-    [ -n "$mode" ] || needed+=(valgrind binutils)  # of perf/smoke.sh
+    [ -n "$mode" ] || needed+=(valgrind binutils python3-matplotlib python3-numpy)  # of perf/smoke.sh, wedge report
     install_needed "${needed[@]}"
     build build/tests g++ -DWEDGE_WARNINGS_AS_ERRORS=ON
     [ "$mode" != --validate ] || { validate build/tests; exit; }

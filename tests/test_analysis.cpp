@@ -156,7 +156,8 @@ TEST_CASE("Rattlers are left out of the mechanical coordination number") {
 }
 
 TEST_CASE(
-    "Across the seam both ends count; a neighbour met directly and through the seam is one distinct neighbour") {
+    "Across the seam both ends count, and a neighbour met directly and through the seam is one distinct "
+    "neighbour") {
   const AnalysedRun run = vessel(4);  // 90 degrees
   // Near the faces phi = 0 and 90 degrees, 8 d from the axis: neighbours through the seam.
   const std::vector<Grain> seam = {{R, {8 * d, 0.49 * d, 5 * d}, {}, {}}, {R, {0.49 * d, 8 * d, 5 * d}, {}, {}}};
@@ -360,7 +361,7 @@ TEST_CASE("The kinetic part of the pressure is rho times the mean square of the 
   CHECK(c.velocity.z == Approx(1).epsilon(1e-3));
 }
 
-TEST_CASE("The angle of a cone is found, with no scatter over azimuth; of a cone of two slopes with theirs") {
+TEST_CASE("The angle of a cone is found, with no scatter over azimuth, and of a cone of two slopes with theirs") {
   const AnalysedRun run = vessel();
   const auto cone = [&](double left, double right) {
     BedFrame bed;
@@ -537,7 +538,7 @@ TEST_CASE("Zones by speed against that of a plug as wide as the vessel") {
   CHECK(zone_of(0.55, 0, -0.9, 0) == Zone::none);
 }
 
-TEST_CASE("Pictures: a sector's slice lies in its middle, with images at the axis; a cut is a layer") {
+TEST_CASE("Pictures: a sector's slice lies in its middle, with images at the axis, and a cut is a layer") {
   const AnalysedRun run = vessel(4);
   const double c = std::cos(pi / 4);
   const std::vector<Grain> grains = {{R, {10 * c * d, 10 * c * d, 5 * d}, {}, {}},  // in the middle

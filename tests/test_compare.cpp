@@ -173,7 +173,7 @@ TEST_CASE("The mean and the spread of a pooled distribution are those of its law
   CHECK(whole.scale == Approx(1));
 }
 
-TEST_CASE("Root mean square of weighted maps; cells that one set does not have do not count") {
+TEST_CASE("Root mean square of weighted maps: cells that one set does not have do not count") {
   // Two runs pool to (2 * 1 + 6 * 5) / 8 = 4 with mean weight 4 in the first cell.
   const Pool first = pool_of({field({2, 1, 3}, {1, 2, 9}), field({6, 1, 3}, {5, 2, 9})});
   CHECK(first.value[0] == Approx(4));

@@ -94,3 +94,30 @@ TEST_CASE("lognormal sizes: ln(diameter) is a normal number between the cuts", "
     }
   }
 }
+
+TEST_CASE("a slot is filled over its whole width, left and right of the middle", "[fill]") {
+  Scene s = plain_scene(1e7, 0.3, 3800);
+  s.domain.kind = DomainKind::slot;
+  s.domain.slot_width = 0.02;
+  RandomFill fill;
+  fill.sizes = std::vector<SizeClass>{{0.005, 1, 0}};
+  fill.count = 2000;
+  fill.r_low = -0.05;
+  fill.r_high = 0.15;
+  fill.z_high = 0.5;
+  State state = make_state(s, {});
+  fill_at_random(state, s, fill);
+  REQUIRE(state.particles.count() == 2000);
+  double sum = 0, lowest = 1, highest = -1;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const Vec3 x = state.particles.position.get(i);
+    sum += x.x / 2000;
+    lowest = std::min(lowest, x.x);
+    highest = std::max(highest, x.x);
+    CHECK((x.y >= 0 && x.y < 0.02));
+  }
+  CHECK(lowest >= -0.0475);
+  CHECK(lowest < -0.047);
+  CHECK(highest <= 0.1475);
+  CHECK(sum == Approx(0.05).margin(4 * 0.195 / std::sqrt(12 * 2000.0)));
+}
