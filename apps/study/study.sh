@@ -41,10 +41,10 @@ reduced() {
       rows "$from/radial.csv" flow_mean >"$to/radial.csv"
       ;;
     *pile/*)
-      rows "$from/scalars.csv" "settle|collapse|spread|pile" >"$to/scalars.csv"
-      rows "$from/distributions.csv" "collapse|spread|pile" >"$to/distributions.csv"
+      rows "$from/scalars.csv" "settle|collapse|collapse_mean|spread|pile" >"$to/scalars.csv"
+      rows "$from/distributions.csv" "collapse|collapse_mean|spread|pile" >"$to/distributions.csv"
       rows "$from/radial.csv" "settle|collapse|pile" >"$to/radial.csv"
-      { rows "$from/map.csv" pile; rows "$from/map.csv" "collapse|spread" whole | tail -n +2; } >"$to/map.csv"
+      { rows "$from/map.csv" pile; rows "$from/map.csv" "collapse|collapse_mean|spread" whole | tail -n +2; } >"$to/map.csv"
       case $1 in *_s1) picture="collapse|spread|pile" ;; esac
       ;;
     *)
