@@ -13,18 +13,19 @@
 namespace wedge {
 namespace {
 
-/// error = factor (d / (D theta))^2.
-struct CoreLaw {
+/// error = factor (d / (L theta))^2, L the diameter of the vessel or that of the orifice.
+struct SquareLaw {
   const char* quantity;
   double factor, uncertainty;
 };
-// Printed by `python3 apps/study/rule.py`, rows "core".
-constexpr CoreLaw core_laws[] = {
-    {"packing fraction", 4.0, 0.2},
-    {"coordination number (distinct neighbours)", -3.4, 0.2},
+// Printed by `python3 apps/study/rule.py`: rows "core" of the first, "flow" of the last.
+constexpr SquareLaw vessel_laws[] = {
+    {"packing fraction", 4.0, 0.1},
+    {"coordination number (distinct neighbours)", -3.5, 0.1},
 };
+constexpr SquareLaw rate_law = {"discharge rate where it flows", -5.4, 1.3};
 // Share of arched sectors: 1 / (1 + exp((theta D0 / d - middle) / width)); the same command, "arches".
-constexpr double arch_middle = 7.0, arch_width = 0.9;
+constexpr double arch_middle = 7.4, arch_width = 0.85;
 
 constexpr double doubtful_error = 0.02, doubtful_share = 0.05;
 
@@ -35,11 +36,14 @@ std::string percent(double share) { return number_text(std::round(1000 * share) 
 
 SectorExpectation expected_errors(double theta, double width_in_diameters, double orifice_in_diameters) {
   SectorExpectation expected;
-  const double core = std::pow(width_in_diameters * theta, -2);
-  for (const CoreLaw& law : core_laws)
-    expected.errors.push_back({law.quantity, law.factor * core, law.uncertainty * core});
-  if (orifice_in_diameters > 0)
-    expected.arched_share = 1 / (1 + std::exp((theta * orifice_in_diameters - arch_middle) / arch_width));
+  const auto add = [&](const SquareLaw& law, double length_in_diameters) {
+    const double share = std::pow(length_in_diameters * theta, -2);
+    expected.errors.push_back({law.quantity, law.factor * share, law.uncertainty * share});
+  };
+  for (const SquareLaw& law : vessel_laws) add(law, width_in_diameters);
+  if (!(orifice_in_diameters > 0)) return expected;
+  add(rate_law, orifice_in_diameters);
+  expected.arched_share = 1 / (1 + std::exp((theta * orifice_in_diameters - arch_middle) / arch_width));
   return expected;
 }
 

@@ -1,4 +1,5 @@
-// test_sector_error.cpp: what the study expects of a sector: how it scales, for which scenes it is told, and when it warns.
+// test_sector_error.cpp: what the study expects of a sector: how it scales, for which scenes it is told, and when
+// it warns.
 #include <cmath>
 
 #include "apps/sector_error.hpp"
@@ -17,7 +18,8 @@ Scene hopper(const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Expected errors fall with the square of the angle and of the vessel, arches with the arc at the orifice") {
+TEST_CASE(
+    "Expected errors fall with the square of the angle and of the vessel, arches with the arc at the orifice") {
   const SectorExpectation wide = expected_errors(pi / 2, 20, 8), thin = expected_errors(pi / 4, 20, 8),
                           large = expected_errors(pi / 4, 40, 8);
   REQUIRE(wide.errors.size() == thin.errors.size());
@@ -38,9 +40,11 @@ TEST_CASE("wedge check expects errors of sectors with periodic sides and the axi
     CHECK(!expected_errors(hopper({"domain.angle=90", other})));
   const auto expected = expected_errors(hopper({"domain.angle=45"}));
   REQUIRE(expected);
-  CHECK(expected->errors.front().error == Approx(expected_errors(pi / 4, 40, 8).errors.front().error).epsilon(1e-9));
+  CHECK(expected->errors.front().error ==
+        Approx(expected_errors(pi / 4, 40, 8).errors.front().error).epsilon(1e-9));
   CHECK(*expected->arched_share == Approx(*expected_errors(pi / 4, 40, 8).arched_share).epsilon(1e-9));
-  CHECK_THAT(expectation_text(*expected), Catch::Contains("packing fraction +") && Catch::Contains("an arch stops"));
+  CHECK_THAT(expectation_text(*expected),
+             Catch::Contains("packing fraction +") && Catch::Contains("an arch stops"));
   CHECK(!expectation_warning(hopper({"domain.angle=180"})));
   const auto warning = expectation_warning(hopper({"domain.angle=15"}));
   REQUIRE(warning);
