@@ -29,8 +29,11 @@ constexpr double arch_middle = 7.4, arch_width = 0.85;
 
 constexpr double doubtful_error = 0.02, doubtful_share = 0.05;
 
-/// With one decimal, of a number in parts of one.
-std::string percent(double share) { return number_text(std::round(1000 * share) / 10); }
+/// Of a number in parts of one; with two decimals below 1 %, else with one.
+std::string percent(double share) {
+  const double decimals = std::abs(share) < 0.01 ? 100 : 10;
+  return number_text(std::round(100 * decimals * share) / decimals);
+}
 
 }  // namespace
 
