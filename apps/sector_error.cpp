@@ -27,6 +27,9 @@ constexpr SquareLaw rate_law = {"discharge rate where it flows", -5.4, 1.3};
 // Share of arched sectors: 1 / (1 + exp((theta D0 / d - middle) / width)); the same command, "arches".
 constexpr double arch_middle = 7.4, arch_width = 0.85;
 
+constexpr double least_rim =
+    4;  // theta D0 / d, an arc of 2 d at the rim: thinner ones are not what these laws are of
+
 constexpr double doubtful_error = 0.02, doubtful_share = 0.05;
 
 /// Of a number in parts of one; with two decimals below 1 %, else with one.
@@ -45,7 +48,8 @@ SectorExpectation expected_errors(double theta, double width_in_diameters, doubl
   };
   for (const SquareLaw& law : vessel_laws) add(law, width_in_diameters);
   if (!(orifice_in_diameters > 0)) return expected;
-  add(rate_law, orifice_in_diameters);
+  expected.thin_at_orifice = theta * orifice_in_diameters < least_rim;
+  if (!expected.thin_at_orifice) add(rate_law, orifice_in_diameters);
   expected.arched_share = 1 / (1 + std::exp((theta * orifice_in_diameters - arch_middle) / arch_width));
   return expected;
 }
@@ -64,6 +68,7 @@ std::string expectation_text(const SectorExpectation& expected) {
   for (const ExpectedError& e : expected.errors)
     text += (text.empty() ? "" : ", ") + e.quantity + (e.error > 0 ? " +" : " ") + percent(e.error) + " +- " +
             percent(e.uncertainty) + " %";
+  if (expected.thin_at_orifice) text += "; at the orifice it is too thin (an arc below 2 d) for a discharge rate";
   if (expected.arched_share)
     text += "; an arch stops " + number_text(std::round(100 * *expected.arched_share)) + " % of such sectors";
   return text;

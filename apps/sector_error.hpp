@@ -17,6 +17,7 @@ struct ExpectedError {
 
 /// What is expected of a sector with periodic sides and the axis `clamp`.
 struct SectorExpectation {
+  bool thin_at_orifice = false;  // its arc at the rim is below 2 d: no discharge rate can be expected of it
   std::vector<ExpectedError> errors;
   std::optional<double> arched_share;  // of sectors that a stable arch stops; nothing without an orifice
 };

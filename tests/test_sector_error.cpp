@@ -31,6 +31,10 @@ TEST_CASE(
   }
   CHECK(thin.errors.front().quantity == "packing fraction");
   CHECK(thin.errors.front().error > 0);  // the core is too dense
+  CHECK(!thin.thin_at_orifice);
+  const SectorExpectation thinnest = expected_errors(pi / 12, 20, 8);  // an arc of 1.05 d at the rim
+  CHECK(thinnest.thin_at_orifice);
+  CHECK(thinnest.errors.size() + 1 == thin.errors.size());
   CHECK(*thin.arched_share > *wide.arched_share);
   CHECK(*thin.arched_share == *large.arched_share);
   CHECK(!expected_errors(pi / 4, 20, 0).arched_share);  // a sandpile has no orifice

@@ -6,7 +6,8 @@ RUNS (runs/ beside this file): a table, and for each quantity which of these rul
     seam   error = a d / (D theta)              what is wrong grows with the length of the axis over that of the arc
     flow   error = a (d / (D0 theta))^2         it is the core over the orifice that counts, whatever the vessel
 
-Errors are relative to the mean of the full vessels; chi2 per degree of freedom says how far a rule is from the data, in standard
+Rules of flows and arches are of sectors whose arc at the rim of the orifice is at least 2 d (theta D0 / d >= 4): below, a column of
+grains on the axis is all that can fall. Errors are relative to the mean of the full vessels; chi2 per degree of freedom says how far a rule is from the data, in standard
 errors. Arches: logistic regression of the share of sectors that arched on theta D0 / d. Needs numpy."""
 import csv
 import math
@@ -49,6 +50,9 @@ def runs_in(folder):
                 if row["part"] == "whole":
                     scalars[row["moment"], row["quantity"]] = float(row["value"])
         yield (set_name, width, orifice, angle), scalars
+
+
+LEAST_RIM = 4  # theta D0 / d
 
 
 def mean_and_error(values):
@@ -123,8 +127,9 @@ def print_errors(ensembles):
         rows = errors_of(ensembles, quantity, moment)
         if len(rows) < 3:
             continue
-        fits = {name: fit(rows, shape) for name, shape in SHAPES.items()}
-        print(f"\n## {meaning} (`{quantity}`, {moment}): {len(rows)} ensembles\n")
+        ruled = [r for r in rows if moment != "flow_mean" or r[2] * r[3] >= LEAST_RIM]
+        fits = {name: fit(ruled, shape) for name, shape in SHAPES.items()}
+        print(f"\n## {meaning} (`{quantity}`, {moment}): {len(ruled)} ensembles\n")
         print("| rule | a | chi2 / dof |\n|---|---|---|")
         for name, (a, error, chi2) in fits.items():
             print(f"| {name} | {a:.3g} ± {error:.2g} | {chi2:.2f} |")
@@ -145,7 +150,7 @@ def print_arches(ensembles):
         if not arched:
             continue
         rows.setdefault((name, width, orifice), {})[angle] = (sum(arched), len(arched))
-        if angle != 360:
+        if angle != 360 and math.radians(angle) * orifice >= LEAST_RIM:
             x += [math.radians(angle) * orifice] * len(arched)
             y += arched
     print("\n## arches: arched of all\n")
