@@ -125,7 +125,7 @@ double slope_of_bed(const State& state, bool slot) {
   for (std::size_t i = 0; i < grain_count(state); ++i) grains.push_back({p.position.get(i), p.radius[i]});
   const std::vector<Eigen::Vector2d> surface = mean_surface(grains, state.mean_diameter, slot);
   const double peak = peak_height(surface);
-  return std::isfinite(peak) ? angle_of_repose(surface, ground(state, peak)) : not_known;
+  return std::isfinite(peak) ? angle_of_repose(surface, ground(state, peak), state.mean_diameter) : not_known;
 }
 
 [[noreturn]] void throw_at_line(const std::string& path, std::size_t line, const std::string& what) {

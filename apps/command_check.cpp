@@ -161,7 +161,8 @@ void print_domain(const Scene& scene, std::int64_t grains) {
   }
   print_axis(domain);
   if (const auto expected = expected_errors(scene))
-    std::cout << "  expected against the full vessel (apps/study/README.md): " << expectation_text(*expected) << '\n';
+    std::cout << "  expected against the full vessel (apps/study/README.md): " << expectation_text(*expected)
+              << '\n';
 }
 
 /// Simulated time [s] the stages can take; `exact` where a time ends them all, else bounds. Nothing without bound.

@@ -67,8 +67,10 @@ std::vector<int> orders_of(const std::string& text) {
     const bool number = parse_number(field.text, degrees) == NumberError::none && degrees >= 1 && degrees <= 180;
     const double order = number ? 360 / degrees : 0;
     if (!number || std::abs(order - std::round(order)) > 1e-6)
-      throw CLI::ValidationError("--angles", "'" + field.text + "' is no angle in degrees that divides 360");
-    orders.push_back(static_cast<int>(std::lround(order)));
+      throw CLI::ValidationError("--angles",
+                                 "'" + field.text + "' is no angle in degrees, 1 to 180, that divides 360");
+    const int whole = static_cast<int>(std::lround(order));
+    if (std::find(orders.begin(), orders.end(), whole) == orders.end()) orders.push_back(whole);
   }
   return orders;
 }
@@ -203,8 +205,12 @@ private:
     compare->add_option("--moment", compare_.moment, "compare analyses of this moment only")->type_name("NAME");
   }
   void add_analyse() {
-    CLI::App* analyse = command("analyse", "Measure a run: everything of apps/analysis/README.md, into DIR/results",
-                                [this] { return command_analyse(analyse_); });
+    CLI::App* analyse =
+        command("analyse", "Measure a run: everything of apps/analysis/README.md, into DIR/results", [this] {
+          if (analyse_.from && analyse_.to && *analyse_.from > *analyse_.to)
+            return usage("--from is later than --to");
+          return command_analyse(analyse_);
+        });
     folder_option(analyse, analyse_.folder);
     const auto time_option = [&](const char* name, std::optional<double>& time, const char* meaning) {
       analyse

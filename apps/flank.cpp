@@ -44,13 +44,16 @@ double peak_height(const std::vector<Eigen::Vector2d>& surface) {
   return peak;
 }
 
-double angle_of_repose(const std::vector<Eigen::Vector2d>& surface, double ground) {
+double angle_of_repose(const std::vector<Eigen::Vector2d>& surface, double ground, double width) {
   constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
   const double peak = peak_height(surface);
   if (!std::isfinite(peak)) return not_known;
   std::vector<Eigen::Vector2d> slope;
   bool outside = false;  // of the highest ring: inside it the pile of a sector may have a hollow at the axis
+  const Eigen::Vector2d* inner = nullptr;
   for (const Eigen::Vector2d& ring : surface) {
+    if (outside && (ring.y() > inner->y() + width || ring.x() > inner->x() + 2 * width)) break;
+    inner = &ring;
     const double height = (ring.y() - ground) / (peak - ground);
     if (outside && height > 0.1 && height < 0.9) slope.push_back(ring);
     outside = outside || ring.y() == peak;

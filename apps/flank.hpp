@@ -23,7 +23,9 @@ std::vector<Eigen::Vector2d> mean_surface(const std::vector<Ball>& grains, doubl
 double peak_height(const std::vector<Eigen::Vector2d>& surface);
 
 /// Slope of the surface as an angle [deg]: the line through the rings outside the highest one, between 10 and 90 %
-/// of its height above the ground, by least squares. Nan with fewer than four rings there, as on a flat bed.
-double angle_of_repose(const std::vector<Eigen::Vector2d>& surface, double ground);
+/// of its height above the ground, by least squares. The flank ends before a ring that is missing or more than
+/// `width` [m] higher than the one inside it: what lies beyond is not of the pile. Nan with fewer than four rings,
+/// as on a flat bed.
+double angle_of_repose(const std::vector<Eigen::Vector2d>& surface, double ground, double width);
 
 }  // namespace wedge

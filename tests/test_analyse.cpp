@@ -55,14 +55,24 @@ TEST_CASE(
   const std::size_t second = beds.find('\n') + 1;
   const auto row = split_csv_line(beds.substr(second, beds.find('\n', second) - second));
   for (const auto& [column, name] : {std::pair{"grains", "grains"}, std::pair{"coordination number", "cn"}}) {
+    bool found = false;
     for (std::size_t k = 0; k < heading.size(); ++k) {
       if (heading[k].text != column) continue;
+      found = true;
       double value = 0;
       REQUIRE(parse_number(row[k].text, value) == NumberError::none);
       CHECK(scalar(run, "settle", "whole", name) == Approx(value).epsilon(1e-4));
     }
+    CHECK(found);
   }
-  CHECK(scalar(run, "discharge_mean", "whole", "discharge_rate") > 100);
+  // All that left, six times, over the stage's 0.4 s; the last row of the flow is that of its end.
+  const std::string ledger = read_text_file(run + "/series/ledger.csv");
+  const auto last = split_csv_line(ledger.substr(ledger.rfind('\n', ledger.size() - 2) + 1));
+  double out = 0;
+  REQUIRE(parse_number(last[3].text.substr(0, last[3].text.find('\n')), out) == NumberError::none);
+  CHECK(scalar(run, "discharge_mean", "whole", "discharge_rate") == Approx(6 * out / 0.4).epsilon(0.03));
+  const std::string flow = read_text_file(run + "/results/flow.csv");
+  CHECK(flow.rfind("\n0.4," + std::to_string(6 * static_cast<int>(out)) + ",") != std::string::npos);
   CHECK(read_text_file(run + "/results/summary.json").find("\"angle_deg\": 60") != std::string::npos);
   std::vector<std::string> texts;
   for (const std::string& file : report.files) texts.push_back(read_text_file(file));
@@ -113,6 +123,9 @@ TEST_CASE("wedge analyse: refuses what is no run, and one that has not got to th
   std::filesystem::remove(RunFolder(run).beds());
   CHECK_THROWS_AS(analysed(run), FileError);
   CHECK(analysed(run, {}, TimeSpan{0, 1}).frames > 1);
+  std::filesystem::remove(
+      RunFolder(run).frame("particles", 1));  // a gap would shift what is taken for a stage's end
+  CHECK_THROWS_WITH(analysed(run, {}, TimeSpan{0, 1}), Catch::Contains("particles_000001.hdf: is missing"));
   std::filesystem::remove_all(RunFolder(run).frames());
   CHECK_THROWS_AS(analysed(run, {}, TimeSpan{0, 1}), FileError);
 }

@@ -5,6 +5,7 @@
 #include "apps/analysis/moment_sums.hpp"
 #include "apps/analysis/pictures.hpp"
 #include "apps/analysis/results.hpp"
+#include "apps/flank.hpp"
 #include "core/time_scales.hpp"
 #include "tests/catch.hpp"
 #include "tests/laboratory.hpp"
@@ -77,7 +78,7 @@ std::vector<Grain> lattice(int nx, int ny, int nz, double spacing) {
   return grains;
 }
 
-/// Cells d wide and 2 d high over the whole vessel and a margin outside it.
+/// Cells d wide and high over the whole vessel and a margin outside it.
 FieldGrid wide_grid(const AnalysedRun& run) {
   FieldGrid grid;
   grid.left = run.left;
@@ -341,6 +342,38 @@ TEST_CASE("Three spheres in a ring: forces, loads and the pressure tensor of a k
   CHECK(norm(picture.lines[2].to - picture.lines[2].from) == Approx(d));
 }
 
+TEST_CASE("Pressure: a sector with contacts across its seam has that of the full vessel it unfolds to") {
+  const AnalysedRun sector = vessel(4, AxisRule::images), full = vessel();
+  // A pair through the seam, one inside, and the halves of a contact half a turn away.
+  const std::vector<Grain> part = {{R, {8 * d, 0.5 * d, 5 * d}, {}, {}},
+                                   {R, {0.5 * d, 8 * d, 5.2 * d}, {}, {}},
+                                   {R, {1.0 * d, 8.5 * d, 5.6 * d}, {}, {}},
+                                   {R, {0.3 * d, 0.4 * d, 6 * d}, {}, {}}};
+  const std::vector<Touch> touches = {{0, 1, -1, 7.0}, {1, 2, 0, 3.0}, {3, 3, 2, 5.0}};
+  std::vector<Grain> whole;
+  std::vector<Touch> all;
+  for (int k = 0; k < 4; ++k) {
+    for (Grain g : part) {
+      g.x = sector.symmetry.turn_vector(g.x, k);
+      whole.push_back(g);
+    }
+    // Grain i of copy k is 4 k + i; grain 1 seen one turn back from copy k is that of copy k - 1.
+    all.push_back({4 * k, 4 * ((k + 3) % 4) + 1, 0, 7.0});
+    all.push_back({4 * k + 1, 4 * k + 2, 0, 3.0});
+  }
+  all.push_back({3, 11, 0, 5.0});  // once for copies 0 and 2, once for 1 and 3
+  all.push_back({7, 15, 0, 5.0});
+  const PartSums a = sums_of(sector, bed_of(sector, part, touches)), b = sums_of(full, bed_of(full, whole, all));
+  for (const int column : {0, 1, 6, 8}) {
+    const CellFields x = cell_fields(a, column, 15), y = cell_fields(b, column, 15);
+    CHECK(x.prr == Approx(y.prr).epsilon(1e-6));
+    CHECK(x.ptt == Approx(y.ptt).epsilon(1e-6));
+    CHECK(x.pzz == Approx(y.pzz).epsilon(1e-6));
+    CHECK(x.prz == Approx(y.prz).epsilon(1e-6));
+    CHECK(x.prr != 0);
+  }
+}
+
 TEST_CASE("The force through the seam turns with the grain it acts on") {
   const AnalysedRun run = vessel(4);
   const std::vector<Grain> grains = {{R, {8 * d, 0.5 * d, 5 * d}, {}, {}}, {R, {0.5 * d, 8 * d, 5 * d}, {}, {}}};
@@ -391,6 +424,19 @@ TEST_CASE("The angle of a cone is found, with no scatter over azimuth, and of a 
     CHECK(s.estimate.value == Approx(25).epsilon(0.02));
     CHECK(s.estimate.high - s.estimate.low == Approx(2 * 1.96 * 5.22 / std::sqrt(12.0)).epsilon(0.03));
   }
+}
+
+TEST_CASE("What lies beyond a gap or a step up is not of the flank") {
+  std::vector<Eigen::Vector2d> cone;
+  for (int k = 0; k < 12; ++k) cone.emplace_back((k + 0.5) * d, std::tan(28 * pi / 180) * (12 - k) * d);
+  const double alone = angle_of_repose(cone, 0, d);
+  CHECK(alone == Approx(28).epsilon(1e-9));
+  std::vector<Eigen::Vector2d> stuck = cone, far = cone;
+  stuck[9].y() = stuck[10].y() = 5 * d;  // grains caught beside the pile, higher than its foot
+  CHECK(angle_of_repose(stuck, 0, d) == Approx(28).epsilon(1e-9));
+  far.erase(far.begin() + 8, far.begin() + 10);
+  for (std::size_t k = 8; k < far.size(); ++k) far[k].y() = 2 * d;
+  CHECK(angle_of_repose(far, 0, d) == Approx(28).epsilon(1e-9));
 }
 
 TEST_CASE("Mass at the axis: grains inside d and 2 d over the height of the bulk") {

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "apps/sector_error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
 #include "io/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/laboratory.hpp"
@@ -38,6 +40,30 @@ TEST_CASE(
   CHECK(*thin.arched_share > *wide.arched_share);
   CHECK(*thin.arched_share == *large.arched_share);
   CHECK(!expected_errors(pi / 4, 20, 0).arched_share);  // a sandpile has no orifice
+}
+
+TEST_CASE("Expected errors are those of the runs that are kept in apps/study") {
+  const auto mean = [](const std::string& ensemble, const std::string& row) {
+    double sum = 0;
+    for (int seed = 1; seed <= 8; ++seed) {
+      const std::string text = read_text_file(std::string(WEDGE_SOURCE_DIR) + "/apps/study/runs/hopper20/" +
+                                              ensemble + "_s" + std::to_string(seed) + "/results/scalars.csv");
+      const std::size_t at = text.find("\n" + row + ",");
+      REQUIRE(at != std::string::npos);
+      double value = 0;
+      const auto fields = split_csv_line(std::string_view(text).substr(at + 1, text.find('\n', at + 1) - at - 1));
+      REQUIRE(parse_number(fields[4].text, value) == NumberError::none);
+      sum += value / 8;
+    }
+    return sum;
+  };
+  for (const auto& [angle, order] : {std::pair{"a90", 4}, {"a60", 6}, {"a45", 8}, {"a30", 12}}) {
+    const SectorExpectation expected = expected_errors(2 * pi / order, 20, 8);
+    const auto measured = [&](const char* row) { return mean(angle, row) / mean("a360", row) - 1; };
+    CHECK(expected.errors[0].error == Approx(measured("settle,whole,packing")).margin(0.004));
+    CHECK(expected.errors[1].error == Approx(measured("settle,whole,cn_distinct")).margin(0.006));
+    CHECK(*expected.arched_share == Approx(mean(angle, "flow_mean,whole,arched")).margin(0.3));
+  }
 }
 
 TEST_CASE("wedge check expects errors of sectors with periodic sides and the axis clamp, and of nothing else") {

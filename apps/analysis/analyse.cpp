@@ -108,7 +108,8 @@ void add_discharge(PartResult& result, const AnalysedRun& run, const Moment& mom
     return e;
   };
   result.scalars.push_back({"discharge_rate", "1/s", rate});
-  result.scalars.push_back({"arched", "", plain(arched(crossings, part, begin, moment.end) ? 1 : 0)});
+  if (orifice_diameter(run.scene) > 0 && result.sums->mean("grains") > 0)
+    result.scalars.push_back({"arched", "", plain(arched(crossings, part, begin, moment.end) ? 1 : 0)});
   const Estimate beverloo = beverloo_rate(run, packing_before);
   result.scalars.push_back({"beverloo_low", "1/s", plain(beverloo.low)});
   result.scalars.push_back({"beverloo_high", "1/s", plain(beverloo.high)});

@@ -59,7 +59,7 @@ std::unordered_map<std::int32_t, Index> places_by_id(const Particles& grains) {
   return places;
 }
 
-/// How often a contact counts for its two grains: a pair of one grain and its copy half a turn away is one contact.
+/// Whether a contact is one of a grain with its copy half a turn away: one contact, seen from both ends.
 bool is_shared(const AnalysedRun& run, Index first, Index second, int turn) {
   return first == second && 2 * turn == run.symmetry.order();
 }

@@ -84,7 +84,7 @@ Estimate discharge_rate(const std::vector<Crossing>& crossings, const Part& part
 }
 
 bool arched(const std::vector<Crossing>& crossings, const Part& part, double begin, double end) {
-  const double quiet = std::min(0.2, 0.25 * (end - begin));
+  const double quiet = std::min(0.2, 0.5 * (end - begin));
   return std::none_of(crossings.begin(), crossings.end(), [&](const Crossing& c) {
     return c.time > end - quiet && c.time <= end && part.holds(c.azimuth);
   });

@@ -28,7 +28,7 @@ std::optional<double> opening_time(const AnalysedRun& run);
 /// Crossings per second in begin < t <= end, of the whole vessel; interval by bootstrap over blocks of time.
 Estimate discharge_rate(const std::vector<Crossing>& crossings, const Part& part, double begin, double end);
 
-/// Whether none crossed in the last 0.2 s (a quarter of the span, if that is shorter) before `end`.
+/// Whether none crossed in the last 0.2 s (half of the span, if that is shorter) before `end`.
 bool arched(const std::vector<Crossing>& crossings, const Part& part, double begin, double end);
 
 /// Diameter [m] of the hole in the middle of the floor that a stage opened by taking away a flat wall; 0: there is

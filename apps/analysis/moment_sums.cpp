@@ -17,7 +17,7 @@ constexpr double filled_packing = 0.45;  // less: the bed does not fill the vess
 
 double volume_of(const BedGrain& g) { return 4 * numbers::pi / 3 * g.radius * g.radius * g.radius; }
 
-/// The distributions a grain adds to, with its values; -1 stands for none.
+/// Values of a grain for the distributions, in their order; nan where it has none.
 std::vector<double> values_of(const BedGrain& g, bool forces) {
   const auto without = [](int cn) { return cn >= rattles_below ? cn : not_known; };
   return {static_cast<double>(g.cn),
@@ -176,11 +176,12 @@ void PartSums::add_fields_of(const BedFrame& bed) {
         return run_.slot ? v : Vec3{cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z};
       };
       const Vec3 f = turned(c.force), l = turned(branch);
+      double rr = -f.x * l.x, tt = -f.y * l.y, rz = -0.5 * (f.x * l.z + f.z * l.x);
+      if (!run_.slot && r < 1e-9 * run_.diameter) rr = tt = 0.5 * (rr + tt), rz = 0;  // the axis has no azimuth
       const double share = weights[k] * (shared ? 0.5 : 1);
       branches.across.push_back(run_.slot ? x.x : r);
       branches.up.push_back(x.z);
-      for (const double value : {-f.x * l.x, -f.y * l.y, -f.z * l.z, -0.5 * (f.x * l.z + f.z * l.x)})
-        branches.values.push_back(share * value);
+      for (const double value : {rr, tt, -f.z * l.z, rz}) branches.values.push_back(share * value);
     }
   }
   add_fields(grid_, branches, part_.copies, stresses_);
@@ -201,12 +202,11 @@ double PartSums::mean(const std::string& scalar) const {
 }
 
 void PartSums::add_scalars(const BedFrame& bed) {
-  add_means(bed);
-  add_axis(bed);
+  add_axis(bed, add_means(bed));
   add_surface(bed);
 }
 
-void PartSums::add_means(const BedFrame& bed) {
+double PartSums::add_means(const BedFrame& bed) {
   double n = 0, cn = 0, near = 0, distinct = 0, rattlers = 0, without = 0, near_without = 0, near_grains = 0;
   double squares = 0;
   Vec3 v{};
@@ -259,11 +259,12 @@ void PartSums::add_means(const BedFrame& bed) {
     contacts += 1;
   }
   note("load", "N", bed.has_forces ? load / contacts : not_known);
+  return packing;
 }
 
-void PartSums::add_axis(const BedFrame& bed) {
+void PartSums::add_axis(const BedFrame& bed, double packing) {
   if (run_.slot) return;
-  const double height = bed.bulk_high - bed.bulk_low, packing = mean("packing");
+  const double height = bed.bulk_high - bed.bulk_low;
   double bulk_mass = 0, bulk_volume = 0;
   for (const BedGrain& g : bed.grains)
     if (g.in_bulk && part_.holds(g.azimuth)) bulk_mass += g.mass, bulk_volume += volume_of(g);
@@ -294,7 +295,7 @@ void PartSums::add_surface(const BedFrame& bed) {
     by_azimuth[std::min(piece, by_azimuth.size() - 1)].push_back(all.back());
   }
   const auto slope = [&](const std::vector<Ball>& grains) {
-    return angle_of_repose(mean_surface(grains, run_.diameter, run_.slot), bed.ground);
+    return angle_of_repose(mean_surface(grains, run_.diameter, run_.slot), bed.ground, run_.diameter);
   };
   note("angle_of_repose", "deg", slope(all));
   double sum = 0, squares = 0, count = 0;
@@ -314,7 +315,7 @@ double PartSums::outer_cn() const { return outer_grains_ > 0 ? outer_sum_ / oute
 
 double PartSums::correction(double r) const {
   const double cn0 = outer_cn(), way = arc(r);
-  if (!(way < core_arc) || !std::isfinite(cn0)) return 1;
+  if (!(way < core_arc)) return 1;
   return cn0 / ((cn0 / 3 - 1) * way + 4 - cn0 / 3);
 }
 
@@ -338,8 +339,8 @@ std::vector<Scalar> PartSums::scalars() const {
   if (run_.slot) return all;
   const double cn0 = outer_cn();
   add("cn0", plain(cn0));
+  if (part_.copies == 1) return all;  // its arcs are those of a whole turn: no core to speak of
   add("core_cn", plain(inner_line_.n > 0 ? inner_line_.y / inner_line_.n : not_known));
-  if (part_.copies == 1) return all;
   const auto [slope, intercept] = inner_line_.fit(std::max(1, frames_));
   add("cn_slope", slope);
   add("cn_intercept", intercept);

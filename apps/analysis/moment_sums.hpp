@@ -97,8 +97,9 @@ private:
   void add_rings(const BedFrame& bed);
   void add_fields_of(const BedFrame& bed);
   void add_scalars(const BedFrame& bed);
-  void add_means(const BedFrame& bed);
-  void add_axis(const BedFrame& bed);
+  /// Returns the packing fraction of this frame.
+  double add_means(const BedFrame& bed);
+  void add_axis(const BedFrame& bed, double packing);
   void add_surface(const BedFrame& bed);
   void note(const std::string& name, const std::string& unit, double value);
 

@@ -46,6 +46,13 @@ std::vector<double> frame_times(const RunFolder& folder) {
   for (std::int64_t n = 0; std::filesystem::exists(folder.frame("particles", n)); ++n)
     times.push_back(read_particle_header(folder.frame("particles", n)).time);
   if (times.empty()) throw FileError(folder.frames() + ": holds no frames of grains to analyse");
+  const std::string missing = RunFolder::frame_name("particles", static_cast<std::int64_t>(times.size()));
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.frames(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() == missing.size() && name.rfind("particles_", 0) == 0 && name > missing)
+      throw FileError(folder.frames() + "/" + missing + ": is missing, but later frames are there");
+  }
   return times;
 }
 
@@ -58,7 +65,7 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<Tim
     add_span(moments, "window", {from, std::min(span->to, times.back())}, true, times, apart);
     if (moments.empty())
       throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
-                      number_text(span->to) + " s; they go from " + number_text(times.front()) + " to " +
+                      (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " + number_text(times.front()) + " to " +
                       number_text(times.back()) + " s");
     return moments;
   }

@@ -180,7 +180,8 @@ std::string flow_csv(const AnalysedRun& run, const std::vector<Crossing>& crossi
   std::size_t k = 0;
   double out = 0;
   while (k < crossings.size() && crossings[k].time <= *opening) ++k;
-  for (int row = 1; *opening + row * every <= until * (1 + 1e-9); ++row) {
+  const double slack = 0.02 * every;  // stages begin and end in the first step at or after their time
+  for (int row = 1; *opening + row * every <= until + slack; ++row) {
     const double before = out;
     while (k < crossings.size() && crossings[k].time <= *opening + row * every) ++k, out += run.order;
     text += number_text(std::round(100 * row * every) / 100);

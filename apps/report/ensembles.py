@@ -114,12 +114,14 @@ class Ensemble:
                 rows.append(ring)
         if not rows:
             return None
-        most = max(rows, key=lambda ring: ring.rows)
-        filled = np.full((len(rows), most.rows), np.nan)
+        # Rings without grains are not in the files: by their places, not by their rows.
+        places = np.unique(np.round(np.concatenate([ring["r"] for ring in rows]), 9))
+        filled, arcs = np.full((len(rows), len(places)), np.nan), np.full(len(places), np.nan)
         for k, ring in enumerate(rows):
-            filled[k, :ring.rows] = ring[column]
+            where = np.searchsorted(places, np.round(ring["r"], 9))
+            filled[k, where], arcs[where] = ring[column], ring["arc"]
         mean, sd = mean_and_sd(filled)
-        return most["r"], most["arc"], mean, sd, len(rows)
+        return places, arcs, mean, sd, len(rows)
 
     def field(self, moment, column):
         """map.csv as arrays: r, z, mean over seeds [z, r], number of seeds."""
@@ -208,7 +210,7 @@ class Vessel:
                 first = run.summary["moments"][0]
                 begin, end = (known[moment].get(k) for k in ("begin_s", "end_s"))
                 if moment == first["name"] or None in (end, first.get("end_s")):
-                    return f"{moment} (at rest before opening)" if moment == first["name"] else moment
+                    return f"{moment} (before opening)" if moment == first["name"] else moment
                 if moment.endswith("_mean") or known[moment].get("kind") == "mean":
                     frames = known[moment].get("frames")
                     return (f"{moment} (average of {frames} frames, {begin - first['end_s']:.2f} to "

@@ -145,7 +145,7 @@ def short_path(word):
 
 def command_of(run):
     words = run.provenance.get("command_line") or []
-    return " ".join(shlex.quote(short_path(str(word))) for word in words)
+    return " ".join(["wedge"] + [shlex.quote(short_path(str(word))) for word in words[1:]]) if words else ""
 
 
 def provenance(runs):
@@ -166,7 +166,7 @@ def commands(runs, comparisons, own):
     """What was typed, as far as runs know it."""
     lines = ["# each run, as it was started (paths cut to their last two names)"]
     lines += [command for command in (command_of(run) for run in runs) if command]
-    lines += ["", "# what each measured", "wedge analyse DIR", "", "# errors against full vessels"]
+    lines += ["", "# what each measured", "wedge analyse DIR              # of full vessels with --wedges N, for the yardstick", "", "# errors against full vessels"]
     lines += [f"# {escape(c.name)}.csv" for c in comparisons]
     lines += ["wedge compare FULL... --with SECTOR... --csv FILE", "", "# this page", own]
     return f'<pre tabindex="0"><code>{escape(chr(10).join(lines))}</code></pre>'

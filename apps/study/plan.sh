@@ -31,11 +31,11 @@ small_hopper() {
     echo "small_hopper/a${angle}_s$seed hopper $(vessel 16 8 7920) domain.angle=$angle particles.seed=$seed"
   done; done
 }
-small_pile() {  # 3/5 as wide and high
+small_pile() {  # a plate 20 d wide in a vessel of 28 d
   for seed in 1 2; do for angle in 360 90 60 45 30; do
-    echo "small_pile/a${angle}_s$seed pile wall.shell.profile=[[\"12_d\",\"-10_d\"],[\"12_d\",0],[\"12_d\",\"45_d\"]]" \
-      "wall.plate.profile=[[0,0],[\"9.6_d\",0]] wall.gate.profile=[[\"9.6_d\",0],[\"12_d\",0]] particles.count=5184" \
-      "particles.region={r=[0,\"12_d\"],z=[0,\"23_d\"]} domain.angle=$angle particles.seed=$seed"
+    echo "small_pile/a${angle}_s$seed pile wall.shell.profile=[[\"14_d\",\"-10_d\"],[\"14_d\",0],[\"14_d\",\"45_d\"]]" \
+      "wall.plate.profile=[[0,0],[\"10_d\",0]] wall.gate.profile=[[\"10_d\",0],[\"14_d\",0]] particles.count=8232" \
+      "particles.region={r=[0,\"14_d\"],z=[0,\"27_d\"]} domain.angle=$angle particles.seed=$seed"
   done; done
 }
 hopper40() {  # the paper's
