@@ -13,19 +13,22 @@
 namespace wedge {
 namespace {
 
-/// error = factor (d / (L theta))^2, L the diameter of the vessel or that of the orifice.
-struct SquareLaw {
+/// error = factor (d / (L theta))^2, L the diameter of the vessel or that of the orifice, where nothing else is
+/// said.
+struct SectorLaw {
   const char* quantity;
   double factor, uncertainty;
 };
 // Printed by `python3 apps/study/rule.py`: rows "core" of the first, "flow" of the last.
-constexpr SquareLaw vessel_laws[] = {
+constexpr SectorLaw vessel_laws[] = {
     {"packing fraction", 4.0, 0.1},
-    {"coordination number (distinct neighbours)", -3.5, 0.1},
+    {"coordination number (distinct neighbours)", -3.6, 0.1},
 };
-constexpr SquareLaw rate_law = {"discharge rate where it flows", -5.4, 1.3};
-// Share of arched sectors: 1 / (1 + exp((theta D0 / d - middle) / width)); the same command, "arches".
-constexpr double arch_middle = 7.4, arch_width = 0.85;
+// error = factor / theta, of a pile on a plate of 32 d; the same command, "angle of repose".
+constexpr SectorLaw pile_law = {"angle of repose of a pile", -0.10, 0.02};
+constexpr SectorLaw rate_law = {"discharge rate where it flows", -5.5, 1.1};
+// Share of arched sectors: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "arches".
+constexpr double arch_rim = 5, arch_middle = 2.85, arch_width = 0.4;
 
 constexpr double least_rim =
     4;  // theta D0 / d, an arc of 2 d at the rim: thinner ones are not what these laws are of
@@ -42,15 +45,19 @@ std::string percent(double share) {
 
 SectorExpectation expected_errors(double theta, double width_in_diameters, double orifice_in_diameters) {
   SectorExpectation expected;
-  const auto add = [&](const SquareLaw& law, double length_in_diameters) {
+  const auto add = [&](const SectorLaw& law, double length_in_diameters) {
     const double share = std::pow(length_in_diameters * theta, -2);
     expected.errors.push_back({law.quantity, law.factor * share, law.uncertainty * share});
   };
-  for (const SquareLaw& law : vessel_laws) add(law, width_in_diameters);
-  if (!(orifice_in_diameters > 0)) return expected;
+  for (const SectorLaw& law : vessel_laws) add(law, width_in_diameters);
+  if (!(orifice_in_diameters > 0)) {
+    expected.errors.push_back({pile_law.quantity, pile_law.factor / theta, pile_law.uncertainty / theta});
+    return expected;
+  }
   expected.thin_at_orifice = theta * orifice_in_diameters < least_rim;
   if (!expected.thin_at_orifice) add(rate_law, orifice_in_diameters);
-  expected.arched_share = 1 / (1 + std::exp((theta * orifice_in_diameters - arch_middle) / arch_width));
+  expected.arched_share =
+      1 / (1 + std::exp((theta * (orifice_in_diameters - arch_rim) - arch_middle) / arch_width));
   return expected;
 }
 

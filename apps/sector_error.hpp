@@ -23,8 +23,9 @@ struct SectorExpectation {
 };
 
 /// Errors at rest: a (d / (D theta))^2, the share of the vessel's cross section that a core of some arcs of d takes
-/// (theta in rad, D the vessel's diameter); of the discharge rate the same with the orifice's diameter for D.
-/// Factors a and arches: apps/study/rule.py, from the runs of apps/study. `orifice` is 0 where there is none.
+/// (theta in rad, D the vessel's diameter); of the discharge rate the same with the orifice's diameter for D;
+/// without an orifice, a pile's angle of repose. Factors a and arches: apps/study/rule.py, from the runs of
+/// apps/study. `orifice` is 0 where there is none.
 SectorExpectation expected_errors(double theta, double width_in_diameters, double orifice_in_diameters);
 
 /// The same of a scene; nothing for a full vessel, a slot, other sides or another axis, which the law is not made

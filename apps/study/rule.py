@@ -8,7 +8,7 @@ RUNS (runs/ beside this file): a table, and for each quantity which of these rul
 
 Rules of flows and arches are of sectors whose arc at the rim of the orifice is at least 2 d (theta D0 / d >= 4): below, a column of
 grains on the axis is all that can fall. Errors are relative to the mean of the full vessels; chi2 per degree of freedom says how far a rule is from the data, in standard
-errors. Arches: logistic regression of the share of sectors that arched on theta D0 / d. Needs numpy."""
+errors. Arches: logistic regression of the share of sectors that arched on theta (D0 / d - k), k that of the greatest likelihood. Needs numpy."""
 import csv
 import math
 import pathlib
@@ -42,6 +42,8 @@ def runs_in(folder):
             width, orifice, angle = (int(found.group(k)) for k in (1, 2, 3))
         elif set_name in ("hopper20", "hopper40"):
             width, orifice, angle = int(set_name[6:]), 8, int(re.match(r"a(\d+)_", name).group(1))
+        elif set_name == "pile":
+            width, orifice, angle = 40, 0, int(re.match(r"a(\d+)_", name).group(1))
         else:
             continue
         scalars = {}
@@ -113,7 +115,7 @@ SHAPES = {
 def logistic(x, y):
     """Maximum likelihood of p = 1 / (1 + exp((x - middle) / width)) by a search; returns middle, width, -2 log L."""
     best = None
-    for middle in np.linspace(1, 14, 261):
+    for middle in np.linspace(0.5, 14, 271):
         for width in np.geomspace(0.05, 4, 80):
             p = np.clip(1 / (1 + np.exp(np.clip((x - middle) / width, -50, 50))), 1e-9, 1 - 1e-9)
             loss = -2 * (y * np.log(p) + (1 - y) * np.log(1 - p)).sum()
@@ -142,8 +144,18 @@ def print_errors(ensembles):
             print(f"| D {vessel[1]} d, orifice {vessel[2]} d ({vessel[0]}) | " + " | ".join(cells) + " |")
 
 
+def print_pile(ensembles):
+    rows = errors_of(ensembles, "angle_of_repose", "pile")
+    if not rows:
+        return
+    a, error, chi2 = fit(rows, lambda w, o, t: 1 / t)
+    print("\n## angle of repose (`angle_of_repose`, pile; plate of 32 d)\n")
+    print("; ".join(f"{math.degrees(r[3]):.0f}° {100 * r[4]:+.1f} ± {100 * r[5]:.1f}" for r in sorted(rows, key=lambda r: -r[3])))
+    print(f"\nerror = a / theta: a = {a:.3g} ± {error:.2g}, chi2 / dof {chi2:.2f}")
+
+
 def print_arches(ensembles):
-    x, y, rows = [], [], {}
+    theta, holes, y, rows = [], [], [], {}
     for (name, width, orifice, angle), runs in ensembles.items():
         arched = [r.get(("flow_mean", "arched"), math.nan) for r in runs]
         arched = [a for a in arched if math.isfinite(a)]
@@ -151,16 +163,20 @@ def print_arches(ensembles):
             continue
         rows.setdefault((name, width, orifice), {})[angle] = (sum(arched), len(arched))
         if angle != 360 and math.radians(angle) * orifice >= LEAST_RIM:
-            x += [math.radians(angle) * orifice] * len(arched)
+            theta += [math.radians(angle)] * len(arched)
+            holes += [orifice] * len(arched)
             y += arched
     print("\n## arches: arched of all\n")
     print("| vessel | full | " + " | ".join(f"{a}°" for a in ANGLES) + " |\n|---|---" + "|---" * len(ANGLES) + "|")
     for vessel, by_angle in sorted(rows.items()):
         cells = [f"{by_angle[a][0]:.0f} of {by_angle[a][1]}" if a in by_angle else "" for a in [360] + ANGLES]
         print(f"| D {vessel[1]} d, orifice {vessel[2]} d ({vessel[0]}) | " + " | ".join(cells) + " |")
-    middle, width, loss = logistic(np.array(x), np.array(y))
-    print(f"\nHalf of the sectors arch at theta D0 / d = {middle:.2f}; share 1 / (1 + exp((theta D0 / d - {middle:.2f}) / {width:.2f}));"
-          f" -2 log L = {loss:.1f} over {len(x)} runs")
+    theta, holes, y = np.array(theta), np.array(holes), np.array(y)
+    fits = {k: logistic(theta * (holes - k), y) for k in np.arange(0, 6, 0.5)}
+    best = min(fits, key=lambda k: fits[k][2])
+    middle, width, loss = fits[best]
+    print(f"\nHalf of the sectors arch at x = theta (D0 / d - {best:g}) = {middle:.2f}; share 1 / (1 + exp((x - {middle:.2f}) / {width:.2f}));"
+          f" -2 log L = {loss:.1f} over {len(y)} runs (with D0 / d alone {fits[0][2]:.1f})")
 
 
 ANGLES = [180, 120, 90, 72, 60, 45, 36, 30, 24, 20, 15]
@@ -168,12 +184,13 @@ ANGLES = [180, 120, 90, 72, 60, 45, 36, 30, 24, 20, 15]
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "runs"
-    ensembles = {}
+    ensembles, piles = {}, {}
     for key, scalars in runs_in(folder):
-        ensembles.setdefault(key, []).append(scalars)
+        (piles if key[0] == "pile" else ensembles).setdefault(key, []).append(scalars)
     print("# Errors of sectors in per cent of the full vessel, ± one standard error (flow: of those that flow)")
     print_errors(ensembles)
     print_arches(ensembles)
+    print_pile(piles)
 
 
 if __name__ == "__main__":
