@@ -65,8 +65,8 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<Tim
     add_span(moments, "window", {from, std::min(span->to, times.back())}, true, times, apart);
     if (moments.empty())
       throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
-                      (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " + number_text(times.front()) + " to " +
-                      number_text(times.back()) + " s");
+                      (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " +
+                      number_text(times.front()) + " to " + number_text(times.back()) + " s");
     return moments;
   }
   double begin = -1e-6;  // a stage of no length still has the frame of its end
