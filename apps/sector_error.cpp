@@ -26,9 +26,9 @@ constexpr SectorLaw vessel_laws[] = {
 };
 // error = factor / theta, of a pile on a plate of 32 d; the same command, "angle of repose".
 constexpr SectorLaw pile_law = {"angle of repose of a pile", -0.10, 0.02};
-constexpr SectorLaw rate_law = {"discharge rate where it flows", -5.5, 1.1};
+constexpr SectorLaw rate_law = {"discharge rate where it flows", -5.2, 1.0};
 // Share of arched sectors: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "arches".
-constexpr double arch_rim = 5, arch_middle = 2.85, arch_width = 0.4;
+constexpr double arch_rim = 5, arch_middle = 2.9, arch_width = 0.4;
 
 constexpr double least_rim =
     4;  // theta D0 / d, an arc of 2 d at the rim: thinner ones are not what these laws are of
