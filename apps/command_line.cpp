@@ -218,7 +218,8 @@ private:
               name, [name, &time](const std::string& text) { time = number_of(name, text); }, meaning)
           ->type_name("SECONDS");
     };
-    time_option("--from", analyse_.from, "average the frames from this simulated time on, instead of the stages");
+    time_option("--from", analyse_.from,
+                "besides the stages, average the frames from this simulated time on (window_mean)");
     time_option("--to", analyse_.to, "... and up to this one");
     analyse
         ->add_option_function<std::string>(
@@ -226,7 +227,8 @@ private:
             "sector angles whose cores, and wedges, are wanted of a full vessel (default 90,60,45,30)")
         ->type_name("DEGREES,...");
     analyse
-        ->add_option("--wedges", analyse_.wedges, "cut so many wedges of each angle from a full vessel (default 0)")
+        ->add_option("--wedges", analyse_.wedges,
+                     "cut so many wedges of each angle from a full vessel (default 0; none from a sector)")
         ->check(CLI::Range(0, 360))
         ->type_name("N");
     analyse->add_option("--cut", analyse_.cut, "height of the horizontal cut [m] (default 5 d above the ground)")

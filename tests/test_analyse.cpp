@@ -82,12 +82,18 @@ TEST_CASE(
     REQUIRE(again.files == report.files);
     for (std::size_t k = 0; k < texts.size(); ++k) CHECK(read_text_file(again.files[k]) == texts[k]);
   }
-  // A span of time instead of the stages.
-  CHECK(analysed(run, {}, TimeSpan{0.5, 1e300}).moments[1].frames.size() == 2);  // from 0.5 s to the end
+  // A span of time besides the stages, whose numbers stay what they are.
+  CHECK(analysed(run, {}, TimeSpan{0.5, 1e300}).moments[5].frames.size() == 2);  // from 0.5 s to the end
+  const double settled = scalar(run, "settle", "whole", "cn"),
+               line = scalar(run, "discharge_mean", "whole", "beverloo_low");
+  analysed(run, {}, TimeSpan{0, 0.05});  // a bed that is still falling is not the one at the opening
+  CHECK(scalar(run, "discharge_mean", "whole", "beverloo_low") == line);
   const AnalysisReport window = analysed(run, {}, TimeSpan{0.2, 0.3});
-  REQUIRE(window.moments.size() == 2);
-  CHECK(window.moments[1].name == "window_mean");
-  CHECK(window.moments[1].frames.size() == 3);
+  REQUIRE(window.moments.size() == 6);
+  CHECK(window.moments[5].name == "window_mean");
+  CHECK(window.moments[5].frames.size() == 3);
+  CHECK(scalar(run, "settle", "whole", "cn") == settled);
+  CHECK(scalar(run, "discharge_mean", "whole", "beverloo_low") == line);
   CHECK_THROWS_AS(analysed(run, {}, TimeSpan{7, 8}), FileError);
   // Without frames of contacts the overlaps count; forces are not known.
   for (int k = 0; k < 13; ++k) std::filesystem::remove(RunFolder(run).frame("contacts", k));

@@ -87,10 +87,13 @@ SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, con
 /// Packing of the last instant before the orifice opened; nan without one.
 double packing_before_opening(const AnalysedRun& run, const std::vector<Moment>& moments, const SumsOfMoments& sums,
                               std::size_t part) {
-  double packing = std::nan("");
+  double packing = std::nan(""), latest = -1;
   const std::optional<double> opening = opening_time(run);
-  for (std::size_t m = 0; opening && m < moments.size(); ++m)
-    if (!moments[m].average && moments[m].end <= *opening + 1e-9) packing = sums[m][part]->mean("packing");
+  for (std::size_t m = 0; opening && m < moments.size(); ++m) {
+    if (moments[m].average || moments[m].end > *opening + 1e-9 || moments[m].end < latest) continue;
+    latest = moments[m].end;
+    packing = sums[m][part]->mean("packing");
+  }
   return packing;
 }
 
@@ -126,6 +129,7 @@ void add_discharge(PartResult& result, const AnalysedRun& run, const Moment& mom
 AnalysisReport analyse(const AnalysisRequest& request) {
   const AnalysedRun run = open_run(request.folder);
   AnalysisReport report;
+  report.full_vessel = run.scene.domain.kind == DomainKind::full;
   report.moments = make_moments(run, request.span);
   Pictures pictures;
   const SumsOfMoments sums = add_up(run, request, report.moments, pictures);

@@ -20,6 +20,7 @@ struct AnalysisRequest {
 struct AnalysisReport {
   std::vector<Moment> moments;
   std::size_t frames = 0;          // read, each once
+  bool full_vessel = false;        // one that wedges can be cut from
   std::vector<std::string> files;  // written
 };
 

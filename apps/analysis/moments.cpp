@@ -60,15 +60,6 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<Tim
   const std::vector<double> times = frame_times(run.folder);
   const double apart = 0.01 * run.scene.output.frames_every;
   std::vector<Moment> moments;
-  if (span) {
-    const double from = span->from - 2e-9 * std::max(1.0, span->from);  // a frame at `from` counts
-    add_span(moments, "window", {from, std::min(span->to, times.back())}, true, times, apart);
-    if (moments.empty())
-      throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
-                      (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " +
-                      number_text(times.front()) + " to " + number_text(times.back()) + " s");
-    return moments;
-  }
   double begin = -1e-6;  // a stage of no length still has the frame of its end
   if (std::filesystem::exists(run.folder.beds())) {
     const std::vector<StageResult> beds = read_bed_table(run.folder.beds());
@@ -78,6 +69,15 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<Tim
       add_span(moments, beds[s].stage, {begin, end}, timed, times, apart);
       begin = end;
     }
+  }
+  const std::size_t of_stages = moments.size();
+  if (span) {
+    const double from = span->from - 2e-9 * std::max(1.0, span->from);  // a frame at `from` counts
+    add_span(moments, "window", {from, std::min(span->to, times.back())}, true, times, apart);
+    if (moments.size() == of_stages)
+      throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
+                      (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " +
+                      number_text(times.front()) + " to " + number_text(times.back()) + " s");
   }
   if (moments.empty())
     throw FileError(run.folder.path() + ": no stage has ended yet; name a span of time: wedge analyse " +

@@ -24,7 +24,7 @@ struct TimeSpan {
 /// Times [s] of the frames of grains, by number. Throws FileError when there are none.
 std::vector<double> frame_times(const RunFolder& folder);
 
-/// Ends of the stages that have ended, and averages over those that end at a time; or, with a span, the average
+/// Ends of the stages that have ended, and averages over those that end at a time; with a span also the average
 /// over it and its last frame. Throws FileError when there is nothing to analyse.
 std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<TimeSpan>& span);
 

@@ -185,7 +185,7 @@ class Vessel:
     def roles(self):
         """Which moment is which: at rest, the paper's instants, the average and the end."""
         names = list(dict.fromkeys(name for e in self.ensembles for run in e.runs for name in run.moments()))
-        instants = [n for n in names if not n.endswith("_mean")]
+        instants = [n for n in names if not n.endswith("_mean") and n != "window"]
         means = [n for n in names if n.endswith("_mean")]
         after = instants[1:] or instants
         roles = {"rest": instants[0] if instants else None}
