@@ -76,8 +76,8 @@ def table(folder, columns, quantities):
     print()
 
 
-def main():
-    folder = pathlib.Path(sys.argv[1])
+def main(comparisons):
+    folder = pathlib.Path(comparisons)
     angles = (90, 60, 45, 30)
     for name, title, quantities in (("hopper20", "Hopper, D = 20 d", HOPPER), ("hopper40", "Hopper, D = 40 d", HOPPER),
                                     ("pile", "Sandpile", PILE)):
@@ -93,4 +93,4 @@ def main():
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit("usage: python3 apps/study/findings.py COMPARISONS")
-    main()
+    main(sys.argv[1])

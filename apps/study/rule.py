@@ -7,15 +7,22 @@ RUNS (runs/ beside this file): a table, and for each quantity which of these rul
     flow   error = a (d / (D0 theta))^2         it is the core over the orifice that counts, whatever the vessel
 
 Rules of flows and arches are of sectors whose arc at the rim of the orifice is at least 2 d (theta D0 / d >= 4): below, a column of
-grains on the axis is all that can fall. Errors are relative to the mean of the full vessels; chi2 per degree of freedom says how far a rule is from the data, in standard
-errors. Arches: logistic regression of the share of sectors that arched on theta (D0 / d - k), k that of the greatest likelihood. Needs numpy."""
+grains on the axis is all that can fall. Errors are relative to the mean of the full vessels; chi2 per degree of freedom says how far a
+rule is from the data, in standard errors. The spread of runs is c / sqrt(N), N the grains of the domain (of rates and speeds: the grains
+that fit into its share of the orifice), c pooled over all ensembles; an ensemble's own spread is drawn towards it as if it were known
+from PRIOR more runs. Arches: logistic regression of the share of sectors that arched on theta (D0 / d - k), k that of the greatest likelihood.
+Needs numpy (Debian: python3-numpy)."""
+import collections
 import csv
 import math
 import pathlib
 import re
 import sys
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    sys.exit("error: rule.py needs numpy: apt-get install python3-numpy, and run it with /usr/bin/python3")
 
 QUANTITIES = [  # name, moment, short meaning
     ("packing", "settle", "packing fraction at rest"),
@@ -28,6 +35,9 @@ QUANTITIES = [  # name, moment, short meaning
     ("speed", "flow_mean", "root mean square speed in flow"),
     ("discharge_rate", "flow_mean", "discharge rate"),
 ]
+RUNS = pathlib.Path(__file__).parent / "runs"
+ANGLES = [180, 120, 90, 72, 60, 45, 36, 30, 24, 20, 15]  # degrees
+Row = collections.namedtuple("Row", "vessel width orifice theta error of_sectors of_full sectors")
 RUN = re.compile(r"w(\d+)_o(\d+)_a(\d+)_s(\d+)$")
 
 
@@ -55,12 +65,15 @@ def runs_in(folder):
 
 
 LEAST_RIM = 4  # theta D0 / d
+PRIOR = 4      # degrees of freedom
 
 
-def mean_and_error(values):
-    """Mean and its standard error; of one value the error is nan."""
-    values = np.asarray(values)
-    return values.mean(), values.std(ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+def size_of(key, runs, quantity):
+    """What the spread of a quantity goes down with, by its root: grains of the domain, or over its orifice."""
+    _, _, orifice, angle = key
+    if quantity in ("discharge_rate", "speed"):
+        return orifice**2 * angle / 360
+    return np.mean([r["settle", "grains"] for r in runs]) * angle / 360
 
 
 def flowing(runs, quantity, moment):
@@ -70,38 +83,48 @@ def flowing(runs, quantity, moment):
     return [v for v in values if math.isfinite(v)]
 
 
+def relative_spread(values):
+    return np.std(values, ddof=1) / abs(np.mean(values)) if len(values) > 1 else 0.0
+
+
 def errors_of(ensembles, quantity, moment):
-    """Rows (set, D/d, D0/d, theta [rad], relative error, its standard error, sectors). An ensemble of one run is given the
-    spread of the pooled others."""
-    scatter = []
-    for runs in ensembles.values():
-        values = flowing(runs, quantity, moment)
-        if len(values) > 2:
-            scatter.append((np.std(values, ddof=1) / abs(np.mean(values)), len(values)))
-    if not scatter:
-        return []
-    typical = math.sqrt(sum(s * s * (n - 1) for s, n in scatter) / sum(n - 1 for _, n in scatter))
+    """Rows: vessel (set, D/d, D0/d), D/d, D0/d, theta [rad], error relative to the full vessel, standard errors of the sectors and of
+    the full vessels, how many sectors. And c of the spread."""
+    values = {key: flowing(runs, quantity, moment) for key, runs in ensembles.items()}
+    values = {key: v for key, v in values.items() if v}
+    freedom = sum(len(v) - 1 for v in values.values())
+    if freedom == 0:
+        return [], math.nan
+    sizes = {key: size_of(key, ensembles[key], quantity) for key in values}
+    c2 = sum(relative_spread(v) ** 2 * sizes[key] * (len(v) - 1) for key, v in values.items()) / freedom
+
+    def standard_error(key):
+        v = values[key]
+        spread2 = ((len(v) - 1) * relative_spread(v) ** 2 + PRIOR * c2 / sizes[key]) / (len(v) - 1 + PRIOR)
+        return math.sqrt(spread2 / len(v))
+
     rows = []
-    for (name, width, orifice, angle), runs in sorted(ensembles.items()):
-        full = ensembles.get((name, width, orifice, 360), [])
-        a, b = flowing(full, quantity, moment), flowing(runs, quantity, moment)
-        if angle == 360 or not a or not b:
+    for key in sorted(values):
+        name, width, orifice, angle = key
+        full = (name, width, orifice, 360)
+        if key == full or full not in values:
             continue
-        (ma, _), (mb, _) = mean_and_error(a), mean_and_error(b)
-        # A few values tell their own scatter badly: never less than what is typical of all ensembles.
-        error = math.hypot(*(max(typical, np.std(v, ddof=1) / abs(m) if len(v) > 2 else 0) / math.sqrt(len(v))
-                             for v, m in ((a, ma), (b, mb))))
-        rows.append((name, width, orifice, math.radians(angle), mb / ma - 1, error, len(b)))
-    return rows
+        error = np.mean(values[key]) / np.mean(values[full]) - 1
+        rows.append(Row((name, width, orifice), width, orifice, math.radians(angle), error, standard_error(key),
+                        standard_error(full), len(values[key])))
+    return rows, math.sqrt(c2)
 
 
 def fit(rows, shape):
-    """Factor a with its error, and chi2 per degree of freedom, of error = a shape(D/d, D0/d, theta)."""
-    x = np.array([shape(r[1], r[2], r[3]) for r in rows])
-    y, s = np.array([r[4] for r in rows]), np.array([r[5] for r in rows])
-    weight = (x * x / s**2).sum()
-    a = (x * y / s**2).sum() / weight
-    chi2 = (((y - a * x) / s) ** 2).sum() / max(1, len(rows) - 1)
+    """Factor a with its error, and chi2 per degree of freedom, of error = a shape(D/d, D0/d, theta), by generalised least
+    squares: sectors that are compared with the same full vessels share the error of these."""
+    x = np.array([shape(r.width, r.orifice, r.theta) for r in rows])
+    y = np.array([r.error for r in rows])
+    shared = np.array([[a.of_full * b.of_full if a.vessel == b.vessel else 0 for b in rows] for a in rows])
+    weights = np.linalg.inv(shared + np.diag([r.of_sectors**2 for r in rows]))
+    weight = x @ weights @ x
+    a = x @ weights @ y / weight
+    chi2 = (y - a * x) @ weights @ (y - a * x) / max(1, len(rows) - 1)
     return a, math.sqrt(max(1, chi2) / weight), chi2
 
 
@@ -124,33 +147,39 @@ def logistic(x, y):
     return best
 
 
+def in_per_cent(row):
+    return f"{100 * row.error:+.1f} ± {100 * math.hypot(row.of_sectors, row.of_full):.1f}"
+
+
 def print_errors(ensembles):
     for quantity, moment, meaning in QUANTITIES:
-        rows = errors_of(ensembles, quantity, moment)
+        rows, c = errors_of(ensembles, quantity, moment)
         if len(rows) < 3:
             continue
-        ruled = [r for r in rows if moment != "flow_mean" or r[2] * r[3] >= LEAST_RIM]
+        ruled = [r for r in rows if moment != "flow_mean" or r.orifice * r.theta >= LEAST_RIM]
         fits = {name: fit(ruled, shape) for name, shape in SHAPES.items()}
-        print(f"\n## {meaning} (`{quantity}`, {moment}): {len(ruled)} ensembles\n")
+        over = "orifice" if quantity in ("discharge_rate", "speed") else "domain"
+        print(f"\n### {meaning} (`{quantity}`, {moment})\n")
+        print(f"{len(ruled)} ensembles, {sum(r.sectors for r in ruled)} sectors; spread of runs {c:.2g} / sqrt(grains of the {over})\n")
         print("| rule | a | chi2 / dof |\n|---|---|---|")
         for name, (a, error, chi2) in fits.items():
             print(f"| {name} | {a:.3g} ± {error:.2g} | {chi2:.2f} |")
         print("\n| vessel | " + " | ".join(f"{a}°" for a in ANGLES) + " |\n|---" * 1 + "|---" * len(ANGLES) + "|")
-        for vessel in sorted({r[:3] for r in rows}):
+        for vessel in sorted({r.vessel for r in rows}):
             cells = []
             for angle in ANGLES:
-                here = [r for r in rows if r[:3] == vessel and round(math.degrees(r[3])) == angle]
-                cells.append(f"{100 * here[0][4]:+.1f} ± {100 * here[0][5]:.1f}" if here else "")
+                here = [r for r in rows if r.vessel == vessel and round(math.degrees(r.theta)) == angle]
+                cells.append(in_per_cent(here[0]) if here else "")
             print(f"| D {vessel[1]} d, orifice {vessel[2]} d ({vessel[0]}) | " + " | ".join(cells) + " |")
 
 
 def print_pile(ensembles):
-    rows = errors_of(ensembles, "angle_of_repose", "pile")
+    rows, _ = errors_of(ensembles, "angle_of_repose", "pile")
     if not rows:
         return
     a, error, chi2 = fit(rows, lambda w, o, t: 1 / t)
-    print("\n## angle of repose (`angle_of_repose`, pile; plate of 32 d)\n")
-    print("; ".join(f"{math.degrees(r[3]):.0f}° {100 * r[4]:+.1f} ± {100 * r[5]:.1f}" for r in sorted(rows, key=lambda r: -r[3])))
+    print("\n### angle of repose (`angle_of_repose`, pile; plate of 32 d)\n")
+    print("; ".join(f"{math.degrees(r.theta):.0f}° {in_per_cent(r)}" for r in sorted(rows, key=lambda r: -r.theta)))
     print(f"\nerror = a / theta: a = {a:.3g} ± {error:.2g}, chi2 / dof {chi2:.2f}")
 
 
@@ -166,7 +195,7 @@ def print_arches(ensembles):
             theta += [math.radians(angle)] * len(arched)
             holes += [orifice] * len(arched)
             y += arched
-    print("\n## arches: arched of all\n")
+    print("\n### arches: arched of all\n")
     print("| vessel | full | " + " | ".join(f"{a}°" for a in ANGLES) + " |\n|---|---" + "|---" * len(ANGLES) + "|")
     for vessel, by_angle in sorted(rows.items()):
         cells = [f"{by_angle[a][0]:.0f} of {by_angle[a][1]}" if a in by_angle else "" for a in [360] + ANGLES]
@@ -179,19 +208,14 @@ def print_arches(ensembles):
           f" -2 log L = {loss:.1f} over {len(y)} runs (with D0 / d alone {fits[0][2]:.1f})")
 
 
-ANGLES = [180, 120, 90, 72, 60, 45, 36, 30, 24, 20, 15]
-
-
-def main():
-    folder = sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "runs"
+def main(folder):
     ensembles, piles = {}, {}
     for key, scalars in runs_in(folder):
         (piles if key[0] == "pile" else ensembles).setdefault(key, []).append(scalars)
-    print("# Errors of sectors in per cent of the full vessel, ± one standard error (flow: of those that flow)")
     print_errors(ensembles)
     print_arches(ensembles)
     print_pile(piles)
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1] if len(sys.argv) > 1 else RUNS)
