@@ -13,25 +13,25 @@
 namespace wedge {
 namespace {
 
-/// error = factor (d / (L theta))^2, L the diameter of the vessel or that of the orifice, where nothing else is
-/// said.
+/// error = factor (d / (L theta))^power, L the diameter of the vessel or that of the orifice.
 struct SectorLaw {
   const char* quantity;
   double factor, uncertainty;
+  int power;
 };
-// Printed by `python3 apps/study/rule.py`: rows "core" of the first, "flow" of the last.
+// Printed by `python3 apps/study/rule.py`: rows "core" of the first, "flow4" of the rate.
 constexpr SectorLaw vessel_laws[] = {
-    {"packing fraction", 4.0, 0.1},
-    {"coordination number (distinct neighbours)", -3.6, 0.1},
+    {"packing fraction", 4.0, 0.1, 2},
+    {"coordination number (distinct neighbours)", -3.6, 0.1, 2},
 };
+constexpr SectorLaw rate_law = {"discharge rate where it flows", -290, 30, 4};
 // error = factor / theta, of a pile on a plate of 32 d; the same command, "angle of repose".
-constexpr SectorLaw pile_law = {"angle of repose of a pile", -0.10, 0.02};
-constexpr SectorLaw rate_law = {"discharge rate where it flows", -5.2, 1.0};
+constexpr SectorLaw pile_law = {"angle of repose of a pile", -0.10, 0.02, 1};
 // Share of arched sectors: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "arches".
-constexpr double arch_rim = 5, arch_middle = 2.9, arch_width = 0.4;
+constexpr double arch_rim = 5, arch_middle = 2.85, arch_middle_uncertainty = 0.1, arch_width = 0.31;
 
-constexpr double least_rim =
-    4;  // theta D0 / d, an arc of 2 d at the rim: thinner ones are not what these laws are of
+// theta D0 / d, an arc of 2 d at the rim: thinner ones are not what these laws are of.
+constexpr double least_rim = 4;
 
 constexpr double doubtful_error = 0.02, doubtful_share = 0.05;
 
@@ -46,18 +46,19 @@ std::string percent(double share) {
 SectorExpectation expected_errors(double theta, double width_in_diameters, double orifice_in_diameters) {
   SectorExpectation expected;
   const auto add = [&](const SectorLaw& law, double length_in_diameters) {
-    const double share = std::pow(length_in_diameters * theta, -2);
+    const double share = std::pow(length_in_diameters * theta, -law.power);
     expected.errors.push_back({law.quantity, law.factor * share, law.uncertainty * share});
   };
   for (const SectorLaw& law : vessel_laws) add(law, width_in_diameters);
   if (!(orifice_in_diameters > 0)) {
-    expected.errors.push_back({pile_law.quantity, pile_law.factor / theta, pile_law.uncertainty / theta});
+    add(pile_law, 1);
     return expected;
   }
   expected.thin_at_orifice = theta * orifice_in_diameters < least_rim;
   if (!expected.thin_at_orifice) add(rate_law, orifice_in_diameters);
-  expected.arched_share =
-      1 / (1 + std::exp((theta * (orifice_in_diameters - arch_rim) - arch_middle) / arch_width));
+  const double share = 1 / (1 + std::exp((theta * (orifice_in_diameters - arch_rim) - arch_middle) / arch_width));
+  expected.arched_share = share;
+  expected.arched_uncertainty = share * (1 - share) / arch_width * arch_middle_uncertainty;
   return expected;
 }
 
@@ -77,7 +78,8 @@ std::string expectation_text(const SectorExpectation& expected) {
             percent(e.uncertainty) + " %";
   if (expected.thin_at_orifice) text += "; at the orifice it is too thin (an arc below 2 d) for a discharge rate";
   if (expected.arched_share)
-    text += "; an arch stops " + number_text(std::round(100 * *expected.arched_share)) + " % of such sectors";
+    text += "; an arch stops " + number_text(std::round(100 * *expected.arched_share)) + " +- " +
+            number_text(std::max(1.0, std::round(100 * expected.arched_uncertainty))) + " % of such sectors";
   return text;
 }
 

@@ -65,13 +65,17 @@ class Rules(unittest.TestCase):
                 {("flow_mean", "discharge_rate"): 1.0, ("flow_mean", "arched"): 1.0}]
         self.assertEqual(rule.flowing(runs, "discharge_rate", "flow_mean"), [5.0])
 
-    def test_the_share_that_arches_is_found(self):
-        random = np.random.default_rng(3)
-        x = random.uniform(0, 8, 2000)
-        y = (random.uniform(size=2000) < 1 / (1 + np.exp((x - 3) / 0.5))).astype(float)
-        middle, width, _ = rule.logistic(x, y)
-        self.assertAlmostEqual(middle, 3, delta=0.15)
-        self.assertAlmostEqual(width, 0.5, delta=0.15)
+    def test_the_share_that_arches_is_found_and_its_error_bar_holds(self):
+        pulls = []
+        for seed in range(40):
+            random = np.random.default_rng(seed)
+            x = random.uniform(0, 8, 300)
+            y = (random.uniform(size=300) < 1 / (1 + np.exp((x - 3) / 0.5))).astype(float)
+            middle, error, width, _ = rule.logistic(x, y)
+            pulls.append((middle - 3) / error)
+            self.assertAlmostEqual(width, 0.5, delta=0.35)
+        self.assertAlmostEqual(np.mean(pulls), 0, delta=0.5)
+        self.assertAlmostEqual(np.std(pulls), 1, delta=0.35)
 
 
 if __name__ == "__main__":

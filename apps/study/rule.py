@@ -5,6 +5,7 @@ RUNS (runs/ beside this file): a table, and for each quantity which of these rul
     core   error = a (d / (D theta))^2          what is wrong fills a core of an arc of some d: its share of the cross section
     seam   error = a d / (D theta)              what is wrong grows with the length of the axis over that of the arc
     flow   error = a (d / (D0 theta))^2         it is the core over the orifice that counts, whatever the vessel
+    flow4  error = a (d / (D0 theta))^4         the same, but of no weight until the flow is near to stopping
 
 Rules of flows and arches are of sectors whose arc at the rim of the orifice is at least 2 d (theta D0 / d >= 4): below, a column of
 grains on the axis is all that can fall. Errors are relative to the mean of the full vessels; chi2 per degree of freedom says how far a
@@ -132,19 +133,21 @@ SHAPES = {
     "core": lambda w, o, t: 1 / (w * t) ** 2,
     "seam": lambda w, o, t: 1 / (w * t),
     "flow": lambda w, o, t: 1 / (o * t) ** 2,
+    "flow4": lambda w, o, t: 1 / (o * t) ** 4,
 }
 
 
 def logistic(x, y):
-    """Maximum likelihood of p = 1 / (1 + exp((x - middle) / width)) by a search; returns middle, width, -2 log L."""
-    best = None
-    for middle in np.linspace(0.5, 14, 271):
-        for width in np.geomspace(0.05, 4, 80):
-            p = np.clip(1 / (1 + np.exp(np.clip((x - middle) / width, -50, 50))), 1e-9, 1 - 1e-9)
-            loss = -2 * (y * np.log(p) + (1 - y) * np.log(1 - p)).sum()
-            if best is None or loss < best[2]:
-                best = (middle, width, loss)
-    return best
+    """Maximum likelihood of p = 1 / (1 + exp((x - middle) / width)) by a search; returns middle, its standard error (from the
+    profile of the likelihood: half of where -2 log L is within 3.84 of the least, over 1.96), width, -2 log L."""
+    middles, widths = np.linspace(0.5, 14, 271), np.geomspace(0.05, 4, 80)
+    loss = np.empty((len(middles), len(widths)))
+    for i, middle in enumerate(middles):
+        p = np.clip(1 / (1 + np.exp(np.clip((x - middle) / widths[:, None], -50, 50))), 1e-9, 1 - 1e-9)
+        loss[i] = -2 * np.log(np.where(y > 0, p, 1 - p)).sum(axis=1)
+    i, k = np.unravel_index(loss.argmin(), loss.shape)
+    near = middles[loss.min(axis=1) < loss.min() + 3.84]
+    return middles[i], (near.max() - near.min()) / 2 / 1.96, widths[k], loss.min()
 
 
 def in_per_cent(row):
@@ -201,11 +204,12 @@ def print_arches(ensembles):
         cells = [f"{by_angle[a][0]:.0f} of {by_angle[a][1]}" if a in by_angle else "" for a in [360] + ANGLES]
         print(f"| D {vessel[1]} d, orifice {vessel[2]} d ({vessel[0]}) | " + " | ".join(cells) + " |")
     theta, holes, y = np.array(theta), np.array(holes), np.array(y)
-    fits = {k: logistic(theta * (holes - k), y) for k in np.arange(0, 6, 0.5)}
-    best = min(fits, key=lambda k: fits[k][2])
-    middle, width, loss = fits[best]
-    print(f"\nHalf of the sectors arch at x = theta (D0 / d - {best:g}) = {middle:.2f}; share 1 / (1 + exp((x - {middle:.2f}) / {width:.2f}));"
-          f" -2 log L = {loss:.1f} over {len(y)} runs (with D0 / d alone {fits[0][2]:.1f})")
+    fits = {k: logistic(theta * (holes - k), y) for k in np.arange(0, 6.5, 0.5)}
+    best = min(fits, key=lambda k: fits[k][-1])
+    near = [k for k in fits if fits[k][-1] < fits[best][-1] + 3.84]
+    middle, error, width, loss = fits[best]
+    print(f"\nHalf of the sectors arch at x = theta (D0 / d - {best:g}) = {middle:.2f} ± {error:.2f}; share 1 / (1 + exp((x - {middle:.2f}) / {width:.2f}));"
+          f" -2 log L = {loss:.1f} over {len(y)} runs (with D0 / d alone {fits[0][-1]:.1f}; {min(near):g} to {max(near):g} in place of {best:g} are within 95 %)")
 
 
 def main(folder):
