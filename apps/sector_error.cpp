@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "apps/analysis/discharge.hpp"
 #include "core/grain_sizes.hpp"
@@ -13,52 +15,76 @@
 namespace wedge {
 namespace {
 
-/// error = factor (d / (L theta))^power, L the diameter of the vessel or that of the orifice.
+/// error = factor (d / (L theta))^power, L a diameter.
 struct SectorLaw {
   const char* quantity;
   double factor, uncertainty;
   int power;
+  double doubtful;
 };
-// Printed by `python3 apps/study/rule.py`: rows "core" of the first, "flow4" of the rate.
+// Printed by `python3 apps/study/rule.py`: of beds at rest the rows "core", of the rate "flow".
 constexpr SectorLaw vessel_laws[] = {
-    {"packing fraction", 4.0, 0.1, 2},
-    {"coordination number (distinct neighbours)", -3.6, 0.1, 2},
+    {"packing fraction", 4.15, 0.10, 2, 0.02},
+    {"coordination number (distinct neighbours)", -3.64, 0.08, 2, 0.02},
 };
-constexpr SectorLaw rate_law = {"discharge rate where it flows", -290, 30, 4};
-// error = factor / theta, of a pile on a plate of 32 d; the same command, "angle of repose".
-constexpr SectorLaw pile_law = {"angle of repose of a pile", -0.10, 0.02, 1};
-// Share of arched sectors: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "arches".
-constexpr double arch_rim = 5, arch_middle = 2.85, arch_middle_uncertainty = 0.1, arch_width = 0.31;
+constexpr SectorLaw rate_law = {"discharge rate of a steady flow", -2.67, 0.96, 2, 0.05};
+// The same command, of piles on a plate of 32 d, in theta alone.
+constexpr SectorLaw pile_laws[] = {
+    {"angle of repose (of a plate of 32 d)", -0.105, 0.015, 1, 0.05},
+    {"coordination number of the pile (distinct neighbours)", -0.00948, 0.0013, 2, 0.02},
+};
+// Share that stops: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "stops".
+constexpr double stop_rim = 4.5, stop_middle = 3.55, stop_middle_uncertainty = 0.1, stop_width = 0.33;
+constexpr double doubtful_share = 0.05;
 
-// theta D0 / d, an arc of 2 d at the rim: thinner ones are not what these laws are of.
+// theta D0 / d, an arc of 2 d at the rim: the laws of flows are not of thinner ones.
 constexpr double least_rim = 4;
 
-constexpr double doubtful_error = 0.02, doubtful_share = 0.05;
+/// "+1.6 +- 0.1 %": as many decimals as the uncertainty has sense, at most two.
+std::string percent(double value, double uncertainty) {
+  const double in_percent = 100 * uncertainty;
+  const int decimals = in_percent >= 1 ? 0 : in_percent >= 0.1 ? 1 : 2;
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << std::showpos << 100 * value << std::noshowpos << " +- "
+       << std::max(in_percent, std::pow(10, -decimals)) << " %";
+  return text.str();
+}
 
-/// Of a number in parts of one; with two decimals below 1 %, else with one.
-std::string percent(double share) {
-  const double decimals = std::abs(share) < 0.01 ? 100 : 10;
-  return number_text(std::round(100 * decimals * share) / decimals);
+/// The diameter [m] of the ground that is left when a stage takes away a ring around it; 0 where none does.
+double plate_diameter(const Scene& scene) {
+  for (const Stage& stage : scene.stages) {
+    for (const std::string& name : stage.remove) {
+      for (const WallDescription& wall : scene.walls) {
+        if (wall.name != name || wall.profile.empty()) continue;
+        double inner = wall.profile.front().x();
+        for (const Eigen::Vector2d& point : wall.profile) inner = std::min(inner, point.x());
+        if (inner > 0) return 2 * inner;
+      }
+    }
+  }
+  return 0;
 }
 
 }  // namespace
 
-SectorExpectation expected_errors(double theta, double width_in_diameters, double orifice_in_diameters) {
+SectorExpectation expected_errors(const SectorSize& sector) {
   SectorExpectation expected;
-  const auto add = [&](const SectorLaw& law, double length_in_diameters) {
-    const double share = std::pow(length_in_diameters * theta, -law.power);
-    expected.errors.push_back({law.quantity, law.factor * share, law.uncertainty * share});
+  const auto add = [&](const SectorLaw& law, double length) {
+    const double share = std::pow(length * sector.theta, -law.power);
+    expected.errors.push_back({law.quantity, law.factor * share, law.uncertainty * share, law.doubtful});
   };
-  for (const SectorLaw& law : vessel_laws) add(law, width_in_diameters);
-  if (!(orifice_in_diameters > 0)) {
-    add(pile_law, 1);
+  if (sector.plate > 0 && !(sector.orifice > 0)) {
+    for (const SectorLaw& law : pile_laws) add(law, 1);
     return expected;
   }
-  expected.thin_at_orifice = theta * orifice_in_diameters < least_rim;
-  if (!expected.thin_at_orifice) add(rate_law, orifice_in_diameters);
-  const double share = 1 / (1 + std::exp((theta * (orifice_in_diameters - arch_rim) - arch_middle) / arch_width));
-  expected.arched_share = share;
-  expected.arched_uncertainty = share * (1 - share) / arch_width * arch_middle_uncertainty;
+  for (const SectorLaw& law : vessel_laws) add(law, sector.width);
+  if (!(sector.orifice > 0)) return expected;
+  expected.thin_at_orifice = sector.theta * sector.orifice < least_rim;
+  if (expected.thin_at_orifice) return expected;
+  add(rate_law, sector.orifice);
+  const double share = 1 / (1 + std::exp((sector.theta * (sector.orifice - stop_rim) - stop_middle) / stop_width));
+  expected.stopped_share = share;
+  expected.stopped_uncertainty = share * (1 - share) / stop_width * stop_middle_uncertainty;
   return expected;
 }
 
@@ -68,28 +94,35 @@ std::optional<SectorExpectation> expected_errors(const Scene& scene) {
   if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic || domain.axis != AxisRule::clamp ||
       !(diameter > 0 && radius > 0))
     return std::nullopt;
-  return expected_errors(2 * numbers::pi / domain.order, 2 * radius / diameter, orifice_diameter(scene) / diameter);
+  return expected_errors({2 * numbers::pi / domain.order, 2 * radius / diameter, orifice_diameter(scene) / diameter,
+                          plate_diameter(scene) / diameter});
 }
 
 std::string expectation_text(const SectorExpectation& expected) {
   std::string text;
   for (const ExpectedError& e : expected.errors)
-    text += (text.empty() ? "" : ", ") + e.quantity + (e.error > 0 ? " +" : " ") + percent(e.error) + " +- " +
-            percent(e.uncertainty) + " %";
-  if (expected.thin_at_orifice) text += "; at the orifice it is too thin (an arc below 2 d) for a discharge rate";
-  if (expected.arched_share)
-    text += "; an arch stops " + number_text(std::round(100 * *expected.arched_share)) + " +- " +
-            number_text(std::max(1.0, std::round(100 * expected.arched_uncertainty))) + " % of such sectors";
+    text += (text.empty() ? "" : ", ") + e.quantity + ' ' + percent(e.error, e.uncertainty);
+  if (expected.thin_at_orifice)
+    text += "; too thin at the orifice (an arc below 2 d): its flow says nothing of the full vessel's";
+  if (expected.stopped_share)
+    text += "; an arch stops or interrupts " + number_text(std::round(100 * *expected.stopped_share)) + " +- " +
+            number_text(std::max(1.0, std::round(100 * expected.stopped_uncertainty))) + " % of such sectors";
   return text;
 }
 
 std::optional<std::string> expectation_warning(const Scene& scene) {
+  const Domain& domain = scene.domain;
+  if (domain.kind == DomainKind::sector && domain.sides != Sides::periodic)
+    return std::string(
+        "the sides of this sector are walls: neither its bed nor its flow is the full vessel's "
+        "(apps/study/README.md, \"What bounds a sector\")");
   const std::optional<SectorExpectation> expected = expected_errors(scene);
   if (!expected) return std::nullopt;
   const bool wrong = std::any_of(expected->errors.begin(), expected->errors.end(),
-                                 [](const ExpectedError& e) { return std::abs(e.error) > doubtful_error; });
-  if (!wrong && !(expected->arched_share.value_or(0) > doubtful_share)) return std::nullopt;
-  return number_text(360.0 / scene.domain.order) +
+                                 [](const ExpectedError& e) { return std::abs(e.error) > e.doubtful; });
+  if (!wrong && !expected->thin_at_orifice && !(expected->stopped_share.value_or(0) > doubtful_share))
+    return std::nullopt;
+  return number_text(360.0 / domain.order) +
          " degrees here: expected against the full vessel (apps/study/README.md): " + expectation_text(*expected) +
          ". Use a larger angle, or several seeds and the full vessel once";
 }

@@ -7,8 +7,10 @@ wedge=${WEDGE:-$study/../../build/release/wedge}
 [ -x "$wedge" ] || { echo "error: $wedge: no such program; build it first: bash apps/demo.sh" >&2; exit 4; }
 [ $# -eq 2 ] || { echo "usage: bash apps/study/compare.sh RUNS COMPARISONS" >&2; exit 2; }
 runs=$1 comparisons=$2
-rm -rf "$comparisons"
 mkdir -p "$comparisons"
+others=$(find "$comparisons" -mindepth 1 ! -name '*.csv' | head -n 1)
+[ -z "$others" ] || { echo "error: $comparisons holds more than comparisons: $others" >&2; exit 2; }
+rm -f "$comparisons"/*.csv
 comparisons=$(cd "$comparisons" && pwd)
 cd "$runs"
 

@@ -72,7 +72,8 @@ one() {
     finished) ;;
     "") rm -rf "$run"; "$WEDGE" run "$study/$scene.toml" -o "$run" -j 1 "${settings[@]}" >"$run.log" 2>&1 ;;
     *) "$WEDGE" resume "$run" -j 1 >>"$run.log" 2>&1 ;;
-  esac && analysed "$name" "$run" && reduced "$name" "$run" "$kept" || { echo "$name: $(tail -n 1 "$run.log")"; return 0; }
+  esac && bash -euo pipefail -c 'analysed "$1" "$2"; reduced "$1" "$2" "$3"' _ "$name" "$run" "$kept" 2>>"$run.log" ||
+    { echo "$name: $(tail -n 1 "$run.log")"; return 0; }
   [ -n "${KEEP:-}" ] || rm -rf "$run"
   echo "$name: done"
 }
