@@ -108,8 +108,8 @@ def study(vessels, comparisons):
             sections.append(section)
     figures, angles = figures_study.smallest_angles(vessels)
     if figures:
-        section = Section("smallest-angle", NARROW, "<p>In this section colours and markers stand for vessels (but for those of Beverloo\u2019s "
-                          "law, which stand for angles).</p>")
+        section = Section("smallest-angle", NARROW, "<p>In this section colours and markers stand for vessels (but for those of "
+                          "Beverloo\u2019s law, which stand for angles).</p>")
         section.text("Smallest angles", angles)
         for figure in figures:
             section.figure(figure)

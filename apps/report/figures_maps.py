@@ -114,8 +114,8 @@ def differences(vessel, name, moment):
     view = view_of(vessel, [g for _, g in found])
     images = [draw(vessel, e, moment, g, view, DIVERGING, -top, top, f"{quantity.words}, less the full vessel") for e, g in found]
     images.append(scale_bar(DIVERGING, -top, top, f"sector less full: {quantity.symbol}", extend="both"))
-    caption = (f"Moment: {vessel.when(moment)}. Field of the sector less that of the full vessel ({counted(base[3], 'seed')}), both means over "
-               "their seeds: red where the sector has more.")
+    caption = (f"Moment: {vessel.when(moment)}. Field of the sector less that of the full vessel ({counted(base[3], 'seed')}), both means "
+               "over their seeds: red where the sector has more.")
     return Figure(f"Map of {quantity.words}, {moment}, sector less full", images, caption, None, strip_layout(*view))
 
 

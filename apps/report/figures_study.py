@@ -18,8 +18,9 @@ ASIDE = 0.14  # vessels at one angle stand side by side in the picture of arches
 MANY = 4  # runs from which on a share of arches is drawn with its interval
 CORE = [("packing", "rest"), ("cn_distinct", "rest")]  # quantities whose errors fall with (d / (D theta))^2
 CORE_LIMIT = 2  # of the packing, per cent
-STUDIED = [("cn", "rest", "CN at rest", 2), ("cn_distinct", "rest", "CN of distinct neighbours at rest", 2), ("cn", "mean", "CN in flow", 2),
-           ("cn_distinct", "mean", "CN of distinct neighbours in flow", 2), ("packing", "rest", "packing fraction at rest", 1),
+STUDIED = [("cn", "rest", "CN at rest", 2), ("cn_distinct", "rest", "CN of distinct neighbours at rest", 2),
+           ("cn", "mean", "CN in flow", 2), ("cn_distinct", "mean", "CN of distinct neighbours in flow", 2),
+           ("packing", "rest", "packing fraction at rest", 1),
            ("speed", "mean", "root mean square speed", 10), ("discharge_rate", "mean", "discharge rate", 10),
            ("axis_density_1d", "mean", "mass at r < d", 10), ("load", "mean", "mean contact force", 5)]
 AXES = [("angle", r"sector angle $\theta$ [deg]", lambda v, a: a),
@@ -230,12 +231,14 @@ def smallest_table(vessels):
     head = ["vessel"] + [f"{escape(words)}<br><small>within {limit} %</small>" for _, _, words, limit in STUDIED]
     head += [f"by the rule found here<br><small>packing fraction at rest within {CORE_LIMIT} %</small>", "by the paper's CN line",
              "6 d / D<sub>0</sub>"]
-    told = (f"Of the first, \u03b8 = (d / D) (a / {CORE_LIMIT / 100:g})<sup>1/2</sup>, {core_words(law)} is fitted to the errors of the packing "
-            "fraction at rest of all sectors of these vessels: least squares of error = a (d / (D \u03b8))<sup>2</sup>, each weighted by "
-            "1 / (1/N + 1/N<sub>full</sub>), N the grains of all its runs together, since the variance of a mean goes down with them. " if law else "")
-    return table(head, rows, "Smallest angle down to which the difference to the full vessel stays within the limit; \u201c?\u201d: within it, "
-                 "but the 95 % interval is not. In flow, of runs that had not arched, and above any angle at which all had. Last three "
-                 "columns: rules. " + told + "Of the paper, (4.62 / (D/2d)) ((CN0/3 - 1) / (0.02 CN0))<sup>1/2</sup> for 2 % in CN; and 6 d / D<sub>0</sub>.")
+    told = (f"Of the first, \u03b8 = (d / D) (a / {CORE_LIMIT / 100:g})<sup>1/2</sup>, {core_words(law)} is fitted to the errors "
+            "of the packing fraction at rest of all sectors of these vessels: least squares of error = a (d / (D \u03b8))<sup>2</sup>, each "
+            "weighted by 1 / (1/N + 1/N<sub>full</sub>), N the grains of all its runs together, since the variance of a mean goes down with "
+            "them. " if law else "")
+    return table(head, rows, "Smallest angle down to which the difference to the full vessel stays within the limit; \u201c?\u201d: within "
+                 "it, but the 95 % interval is not. In flow, of runs that had not arched, and above any angle at which all had. Last three "
+                 "columns: rules. " + told + "Of the paper, (4.62 / (D/2d)) ((CN0/3 - 1) / (0.02 CN0))<sup>1/2</sup> for 2 % in CN; "
+                 "and 6 d / D<sub>0</sub>.")
 
 
 SIDES = [("packing", "rest"), ("cn", "rest"), ("cn", "mean"), ("axis_density_1d", "mean"), ("axis_density_2d", "mean"),
@@ -252,7 +255,8 @@ def sides(vessel, vessels):
     roles, rows = vessel.roles(), []
     base = {q: vessel.full.scalar(roles[role], q) for q, role in SIDES} if vessel.full else {}
     for e in members:
-        row = [escape("full" if e.full else "slot" if e.kind == "slot" else f"{e.angle:g}\u00b0, sides {e.sides}, axis {e.axis}"), str(len(e.runs))]
+        name = "full" if e.full else "slot" if e.kind == "slot" else f"{e.angle:g}\u00b0, sides {e.sides}, axis {e.axis}"
+        row = [escape(name), str(len(e.runs))]
         for quantity, role in SIDES:
             sample = e.scalar(roles[role], quantity)
             row.append(f"{int(sample.values.sum())} of {sample.n}" if quantity == "arched" and sample.n else cell(sample)
