@@ -231,10 +231,10 @@ def smallest_table(vessels):
     head = ["vessel"] + [f"{escape(words)}<br><small>within {limit} %</small>" for _, _, words, limit in STUDIED]
     head += [f"by the rule found here<br><small>packing fraction at rest within {CORE_LIMIT} %</small>", "by the paper's CN line",
              "6 d / D<sub>0</sub>"]
-    told = (f"Of the first, \u03b8 = (d / D) (a / {CORE_LIMIT / 100:g})<sup>1/2</sup>, {core_words(law)} is fitted to the errors "
-            "of the packing fraction at rest of all sectors of these vessels: least squares of error = a (d / (D \u03b8))<sup>2</sup>, each "
-            "weighted by 1 / (1/N + 1/N<sub>full</sub>), N the grains of all its runs together, since the variance of a mean goes down with "
-            "them. " if law else "")
+    told = (f"Of the first, \u03b8 = (d / D) (a / {CORE_LIMIT / 100:g})<sup>1/2</sup>, {core_words(law)} is fitted to the errors of the "
+            "packing fraction at rest of all sectors of these vessels: least squares of error = a (d / (D \u03b8))<sup>2</sup>, each "
+            "weighted by 1 / (1/N + 1/N<sub>full</sub>), N the grains of all its runs together, since the variance of a mean goes down "
+            "with them. " if law else "")
     return table(head, rows, "Smallest angle down to which the difference to the full vessel stays within the limit; \u201c?\u201d: within "
                  "it, but the 95 % interval is not. In flow, of runs that had not arched, and above any angle at which all had. Last three "
                  "columns: rules. " + told + "Of the paper, (4.62 / (D/2d)) ((CN0/3 - 1) / (0.02 CN0))<sup>1/2</sup> for 2 % in CN; "
