@@ -1,4 +1,4 @@
-# synthetic_run.py FOLDER ANGLE SEED [WIDTH [ORIFICE]]: the result files of a hopper (a sandpile with orifice 0) that was never run, with
+# synthetic_run.py FOLDER ANGLE SEED [WIDTH [ORIFICE [ARCHED]]]: the result files of a hopper (a sandpile with orifice 0) that was never run, with
 # known numbers: the test of `wedge report` makes its runs with it. In them cn = 4 + seed / 10, discharge_rate = 1000 + 10 seed (less for sectors).
 import json
 import math
@@ -9,6 +9,7 @@ import sys
 folder, angle, seed = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
 width = float(sys.argv[4]) if len(sys.argv) > 4 else 12.0
 orifice = float(sys.argv[5]) if len(sys.argv) > 5 else 4.0
+arched = int(sys.argv[6]) if len(sys.argv) > 6 else 0
 d, order, height = 0.005, round(360 / angle), 12
 full = order == 1
 moments = [("settle", "instant", 0.5, 0.5, 1), ("open", "instant", 1.2, 1.2, 1), ("flow_mean", "mean", 1.2, 2.0, 17)]
@@ -31,7 +32,7 @@ def scalars():
     return {"grains": (1200, "-"), "packing": (0.55 + 0.001 * seed, "-"), "cn": (4 + seed / 10, "-"), "cn0": (4.5, "-"), "load": (0.04, "N"),
             "speed": (0.05, "m/s"), "axis_density_1d": (1 + loss, "-"), "axis_density_2d": (1 + loss / 2, "-"),
             "cn_slope": (0.4, "-"), "cn_intercept": (2.7, "-"), "cn_slope_paper": (0.5, "-"), "cn_intercept_paper": (2.5, "-"),
-            "discharge_rate": ((1000 + 10 * seed) * (1 - loss), "1/s"), "arched": (0, "-"), "beverloo_low": (900, "1/s"),
+            "discharge_rate": ((1000 + 10 * seed) * (1 - loss), "1/s"), "arched": (arched, "-"), "beverloo_low": (900, "1/s"),
             "beverloo_high": (1200, "1/s"), "angle_of_repose": (30 + seed, "deg")}
 
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <vector>
 
 #include "io/atomic_file.hpp"
 #include "tests/catch.hpp"
@@ -126,6 +127,29 @@ TEST_CASE("the page of two ensembles has every section, no image without data, a
   CHECK(has(row_after(page, ">Table of errors: made</h3>", "<code>cn</code>"), "12.5 %"));
   CHECK(has(page, "<strong>12.5 %</strong>"));
   CHECK_FALSE(has(page, "<strong>2 %</strong>"));
+  CHECK(has(page, "3 runs against 3"));
+  CHECK(has(page, "wedge report " + (folder / "runs") + " -o "));
+}
+
+TEST_CASE("the smallest angle of a flow is above the first at which all sectors arched", "[report]") {
+  if (!can_draw()) return;
+  ScratchFolder folder;
+  for (const int seed : {1, 2})
+    for (const int angle : {360, 120, 90, 60}) make_run(folder, angle, seed, angle == 90 ? "12 4 1" : "12 4 0");
+  const Ended ended = wedge_program({"report", folder / "runs", "-o", folder / "page.html"}).wait();
+  INFO(ended.errors);
+  REQUIRE(ended.code == 0);
+  const std::string page = read_text_file(folder / "page.html");
+  // CN at rest, of distinct neighbours (not there), in flow (twice), packing, speed, rate, mass at the axis, force;
+  // then three rules.
+  const std::string row = row_after(page, ">Smallest angles</h3>", "D = 12 d");
+  std::vector<std::string> angles;
+  const std::regex cell("(\u2013|\\d+\u00b0)");
+  for (std::sregex_iterator at(row.begin(), row.end(), cell), end; at != end; ++at) angles.push_back(at->str());
+  CHECK(angles == std::vector<std::string>{"60\u00b0", "\u2013", "120\u00b0", "\u2013", "60\u00b0", "120\u00b0",
+                                           "120\u00b0", "120\u00b0", "120\u00b0", "0\u00b0", "104\u00b0",
+                                           "86\u00b0"});
+  CHECK(has(page, "mass at r &lt; d<br>"));
 }
 
 TEST_CASE("the page of sandpiles has the paper's figures of them and the angles of repose", "[report]") {

@@ -1,6 +1,8 @@
 # __main__.py: wedge report: reads result files of runs, draws the figures, writes one HTML page.
 import argparse
+import glob
 import os
+import shlex
 import sys
 import time
 from html import escape
@@ -14,11 +16,13 @@ import figures_pictures
 import figures_study
 import markdown
 import tables
-from ensembles import grouped, sort_into_vessels
-from page import Section, commands, page, provenance, short_path
+from ensembles import counted, grouped, sort_into_vessels
+from page import Section, commands, page, provenance
 from read import find_runs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+NARROW = "How narrow may a sector be?"
+TITLE = "Granular flow, whole and by the slice"
 MOST_ANGLES = 6  # a vessel with more angles, or without maps, is there for the study of the angle: it gets no gallery
 
 
@@ -104,7 +108,8 @@ def study(vessels, comparisons):
             sections.append(section)
     figures, angles = figures_study.smallest_angles(vessels)
     if figures:
-        section = Section("smallest-angle", "How narrow may a sector be?")
+        section = Section("smallest-angle", NARROW, "<p>In this section colours and markers stand for vessels (but for those of "
+                          "Beverloo\u2019s law, which stand for angles).</p>")
         section.text("Smallest angles", angles)
         for figure in figures:
             section.figure(figure)
@@ -133,12 +138,25 @@ def chosen(vessels):
     return few or vessels
 
 
+def own_command(arguments):
+    """What was typed; all CSV files of a folder as one pattern."""
+    files = []
+    for folder in dict.fromkeys(map(os.path.dirname, arguments.compare)):
+        given = [file for file in arguments.compare if os.path.dirname(file) == folder]
+        whole = set(given) == set(glob.glob(os.path.join(glob.escape(folder), "*.csv")))
+        files += [os.path.join(shlex.quote(folder), "*.csv")] if folder and whole else map(shlex.quote, given)
+    words = ["wedge report"] + [shlex.quote(f) for f in arguments.folders]
+    words += ["--compare"] + files if files else []
+    words += ["-o " + shlex.quote(arguments.output)]
+    return " ".join(words + ([f"--title {shlex.quote(arguments.title)}"] if arguments.title != TITLE else []))
+
+
 def main():
     parser = argparse.ArgumentParser(prog="wedge report")
     parser.add_argument("folders", nargs="+")
     parser.add_argument("-o", "--output", required=True)
     parser.add_argument("--compare", action="append", default=[])
-    parser.add_argument("--title", default="Granular flow, whole and by the slice")
+    parser.add_argument("--title", default=TITLE)
     parser.add_argument("--version-text", default="")
     arguments = parser.parse_args()
     runs, found = find_runs(arguments.folders)
@@ -150,9 +168,10 @@ def main():
     vessels = sort_into_vessels(runs)
     lead = ("<p>Full vessels beside sectors of 360/n degrees with rotated, periodic faces: flow patterns, coordination numbers, "
             "velocities, forces, discharge and heaps, drawn like the figures of Yang, Zhou, Pinson and Yu, <cite>Ind. Eng. Chem. "
-            f"Res.</cite> 53 (2014) 8245\u20138256. {len(runs)} runs in {len(vessels)} vessel{'s' if len(vessels) != 1 else ''}.</p>"
+            f"Res.</cite> 53 (2014) 8245\u20138256. {counted(len(runs), 'run')} in {counted(len(vessels), 'vessel')}.</p>"
             "<p class=\"soft\">Curves are means over runs that differ in their seed alone, with a band of one standard deviation over "
-            "seeds; pictures are of the lowest seed. Lengths are in grain diameters d. Colours stand for the same angle throughout.</p>")
+            "seeds; pictures are of the lowest seed. Lengths are in grain diameters d. Colours stand for the same angle throughout"
+            + (f", but in \u201c{NARROW}\u201d for vessels" if figures_study.studied(vessels) else "") + ".</p>")
     sections = [Section("overview", "What was run")]
     sections[0].parts.append(("Vessels and seeds", overview(vessels)))
     sections += [gallery(v) for v in chosen(vessels)] + study(vessels, comparisons)
@@ -160,10 +179,9 @@ def main():
     for name in ("definitions.md", "comparisons.md"):
         with open(os.path.join(HERE, name), encoding="utf-8") as file:
             definitions.intro += markdown.to_html(file.read(), 3)
-    own = "wedge report " + " ".join(short_path(f) for f in arguments.folders) + f" -o {os.path.basename(arguments.output)}"
     origin = Section("provenance", "Provenance")
     origin.text("Runs", provenance(runs))
-    origin.text("Commands that reproduce this page", commands(runs, comparisons, own))
+    origin.text("Commands that reproduce this page", commands(runs, comparisons, own_command(arguments)))
     foot = f"Made by wedge {escape(arguments.version_text)}, {time.strftime('%Y-%m-%d', time.gmtime())}."
     text = page(arguments.title, lead, sections + [definitions, origin], foot)
     part = arguments.output + ".part"

@@ -226,6 +226,11 @@ def grouped(count):
     return f"{count:,}".replace(",", "\u202f")
 
 
+def counted(count, thing):
+    """1 run, 2 runs."""
+    return f"{count} {thing}{'s' if count != 1 else ''}"
+
+
 def sort_into_vessels(runs):
     groups = {}
     for run in runs:

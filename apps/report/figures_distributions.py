@@ -1,6 +1,7 @@
 # figures_distributions.py: distributions over grains and contacts, means over seeds with a band, and their ratio to full.
 import numpy as np
 
+from ensembles import counted
 from style import Figure, Image, curves, colour, line_style, marker, svg
 
 BAND = "Lines: means over seeds; bands: \u00b1 one standard deviation over seeds (none where there is one seed)."
@@ -46,7 +47,7 @@ def merged(edge, table, low, high):
 
 
 def legend_text(e, rows):
-    return f"{e.label} ({len(rows)} seed{'s' if len(rows) != 1 else ''})"
+    return f"{e.label} ({counted(len(rows), 'seed')})"
 
 
 def around(mean, sd, log):

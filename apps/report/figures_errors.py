@@ -7,6 +7,7 @@ from html import escape
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
+from ensembles import counted
 from read import Table, number
 from style import Figure, Image, plt, svg
 from tables import minus, shown, table
@@ -132,8 +133,8 @@ def error_table(name, members):
                 entries = [c.rows.get((moment, region) + key) for c in members]
                 rows.append([f"<code>{escape(key[1])}</code> <small>{key[0]}, {key[2]}</small>"] + [cell(entry) for entry in entries])
     sizes = [next(iter(c.rows.values()), {}) for c in members]
-    head = ["quantity"] + [f"{escape(c.label)}<br><small>{escape(str(s.get('compared_runs', '?')))} runs against "
-                           f"{escape(str(s.get('reference_runs', '?')))}</small>" for c, s in zip(members, sizes)]
+    head = ["quantity"] + [f"{escape(c.label)}<br><small>{counted(int(s['compared_runs']), 'run')} against {int(s['reference_runs'])}</small>"
+                           if s else escape(c.label) for c, s in zip(members, sizes)]
     files = ", ".join(f"<code>{escape(c.name)}.csv</code>" for c in members)
     return table(head, rows, f"From {files}. The error in per cent of its scale (Definitions, <code>relative</code>; else in its unit), bold "
                  "where it is beyond the yardstick; its 95 % interval; below, on screen, the yardstick: wedges of full vessels against full "

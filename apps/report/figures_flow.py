@@ -4,7 +4,7 @@ import numpy as np
 from ensembles import Sample, mean_and_sd
 from figures_axis import DOTS, scalar_dots
 from figures_distributions import legend_text
-from style import Figure, Image, colour, curves, line_style, svg
+from style import Figure, Image, colour, curves, frame_values, line_style, svg
 
 
 def discharge_image(vessel):
@@ -76,27 +76,30 @@ def repose(vessel, moment):
 
 
 def beverloo_line(vessels, ensembles_of):
-    """W^(2/5) against the orifice for vessels of one width, full and sectors."""
+    """W^(2/5) against the orifice for vessels of one width, full and sectors, of runs that flow."""
     figure, axes = curves(3.3, 3.9)
-    drawn = False
+    shown = []
     for angle in (360, 90, 60, 45, 30):
         points = []
         for v in vessels:
             e = next((e for e in ensembles_of(v) if (e.full and angle == 360) or (not e.full and e.angle == angle)), None)
             moment = v.roles()["mean"]
-            sample = Sample(e.scalar(moment, "discharge_rate").values ** 0.4) if e else Sample([])
+            sample = Sample(e.flowing(moment, "discharge_rate").values ** 0.4) if e else Sample([])
             if sample.n:
                 points.append((v.orifice, sample, e))
         if len(points) < 2:
             continue
         x, y = np.array([p[0] for p in points]), np.array([p[1].mean for p in points])
         half = np.nan_to_num([p[1].half for p in points])
-        axes[0].errorbar(x, y, half, marker="o", markersize=5, capsize=3, label=points[0][2].label, **line_style(points[0][2]))
-        drawn = True
-    if not drawn:
+        axes[0].errorbar(x, y, [np.minimum(half, y), half], marker="o", markersize=5, capsize=3, label=points[0][2].label,
+                         **line_style(points[0][2]))
+        shown.append(y)
+    if not shown:
         figure.clf()
         return None
     axes[0].set_xlabel("orifice $D_0$ / d")
     axes[0].set_ylabel(r"$W^{2/5}$ [s$^{-2/5}$]")
+    frame_values(axes[0], shown)
+    axes[0].set_ylim(max(axes[0].get_ylim()[0], 0), None)
     axes[0].legend()
     return Image(svg(figure), "Discharge rate to the power 2/5 against the orifice", f"vessel {vessels[0].width:g} d wide")

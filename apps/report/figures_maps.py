@@ -3,6 +3,7 @@ import numpy as np
 
 from matplotlib.colors import ListedColormap
 
+from ensembles import counted
 from style import DIVERGING, SEQUENTIAL, ZONES, Figure, Image, draw_walls, panel, plt, raster, scale_bar, strip_layout
 
 BED = 0.15  # packing below which a cell is not drawn: no bed there
@@ -74,12 +75,8 @@ def draw(vessel, e, moment, grid, view, cmap, low, high, words, smooth=True):
     axes.set_ylim(*view[1])
     draw_walls(axes, e.runs[0].walls(moment), vessel.d)
     axes.set_xlabel("r / d")
-    return Image(raster(figure, quality=88), f"Map of {words}, {e.label}, {vessel.when(moment)}, mean over {seeds(grid[3])}",
-                 ", ".join(part for part in (e.label, seeds(grid[3]), e.arched(moment)) if part))
-
-
-def seeds(n):
-    return f"{n} seed{'s' if n != 1 else ''}"
+    return Image(raster(figure, quality=88), f"Map of {words}, {e.label}, {vessel.when(moment)}, mean over {counted(grid[3], 'seed')}",
+                 ", ".join(part for part in (e.label, counted(grid[3], 'seed'), e.arched(moment)) if part))
 
 
 def maps(vessel, name, moment, paper=None):
@@ -117,8 +114,8 @@ def differences(vessel, name, moment):
     view = view_of(vessel, [g for _, g in found])
     images = [draw(vessel, e, moment, g, view, DIVERGING, -top, top, f"{quantity.words}, less the full vessel") for e, g in found]
     images.append(scale_bar(DIVERGING, -top, top, f"sector less full: {quantity.symbol}", extend="both"))
-    caption = (f"Moment: {vessel.when(moment)}. Field of the sector less that of the full vessel ({seeds(base[3])}), both means over "
-               "their seeds: red where the sector has more.")
+    caption = (f"Moment: {vessel.when(moment)}. Field of the sector less that of the full vessel ({counted(base[3], 'seed')}), both means "
+               "over their seeds: red where the sector has more.")
     return Figure(f"Map of {quantity.words}, {moment}, sector less full", images, caption, None, strip_layout(*view))
 
 

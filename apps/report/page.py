@@ -3,7 +3,7 @@ import os
 import shlex
 from html import escape
 
-from ensembles import grouped
+from ensembles import counted, grouped
 from tables import duration, table
 
 STYLE = """
@@ -159,7 +159,7 @@ def provenance(runs):
                      str(p.get("threads", "?")), escape(str(p.get("processor", "?"))), escape(str(p.get("compiler", "?"))),
                      escape(str(p.get("started", "?")))])
     head = ["run", "domain", "seed", "wedge", "precision", "grains", "wall time", "threads", "processor", "compiler", "started"]
-    return table(head, rows, f"{len(rows)} runs. Grains: those of the domain.")
+    return table(head, rows, f"{counted(len(rows), 'run')}. Grains: those of the domain.")
 
 
 def commands(runs, comparisons, own):
@@ -167,6 +167,6 @@ def commands(runs, comparisons, own):
     lines = ["# each run, as it was started (paths cut to their last two names)"]
     lines += [command for command in (command_of(run) for run in runs) if command]
     lines += ["", "# what each measured", "wedge analyse DIR              # of full vessels with --wedges N, for the yardstick", "", "# errors against full vessels"]
-    lines += [f"# {escape(c.name)}.csv" for c in comparisons]
+    lines += [f"# {c.name}.csv" for c in comparisons]
     lines += ["wedge compare FULL... --with SECTOR... --csv FILE", "", "# this page", own]
     return f'<pre tabindex="0"><code>{escape(chr(10).join(lines))}</code></pre>'

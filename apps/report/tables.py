@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from ensembles import grouped
+from ensembles import counted, grouped
 
 
 def table(head, rows, caption, first_is_name=True):
@@ -91,7 +91,7 @@ def duration(seconds):
 
 
 def heads(members):
-    return [f"{escape(e.label)}<br><small>{len(e.runs)} seed{'s' if len(e.runs) != 1 else ''}</small>" for e in members]
+    return [f"{escape(e.label)}<br><small>{counted(len(e.runs), 'seed')}</small>" for e in members]
 
 
 def scalars(vessel, moment, members=None):

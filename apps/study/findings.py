@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """findings.py COMPARISONS: the tables of README.md, "The paper, measured", from what compare.sh wrote: sectors against the full
 vessel. A cell is the difference in per cent of the full vessel (or the distance in per cent of its scale) with its 95 % interval;
-in bold where it is beyond the full vessel's own spread at as many grains."""
+in bold where it is beyond the full vessel's own spread at as many grains. Scalars here are never negative, so no interval of their
+differences reaches below -100 %."""
 import csv
+import math
 import pathlib
 import sys
 
@@ -12,6 +14,8 @@ HOPPER = [  # heading, moment, kind, quantity, region, measure
     ("CN of distinct neighbours, at rest", "settle", "scalar", "cn_distinct", "all", "difference"),
     ("mean contact force, at rest", "settle", "scalar", "load", "all", "difference"),
     ("mass within d of the axis, at rest", "settle", "scalar", "axis_mass_1d", "all", "difference"),
+    ("packing fraction, flow", "flow_mean", "scalar", "packing", "all", "difference"),
+    ("mean contact force, flow", "flow_mean", "scalar", "load", "all", "difference"),
     ("discharge rate", "flow_mean", "scalar", "discharge_rate", "all", "difference"),
     ("CN distribution, 0.7 s: KS", "open", "distribution", "cn", "all", "ks"),
     ("CN distribution, flow: KS", "flow_mean", "distribution", "cn", "all", "ks"),
@@ -35,7 +39,10 @@ PILE = [
     ("f_z distribution, 0.14 s: KS", "collapse", "distribution", "fz", "all", "ks"),
     ("map of v_z, 0.14 s: rms", "collapse", "map", "vz", "all", "rms"),
 ]
-SIDES = [HOPPER[0], HOPPER[2], HOPPER[3], HOPPER[5], HOPPER[7], HOPPER[8], HOPPER[11], HOPPER[15]]
+SIDES = [row for row in HOPPER if row[0] in (
+    "packing fraction, at rest", "CN of distinct neighbours, at rest", "mean contact force, at rest", "mass within d of the axis, at rest",
+    "discharge rate", "CN distribution, flow: KS", "the same outside the core", "v_z distribution, flow: KS", "map of v_z, flow: rms")]
+SLOT = [row for row in SIDES if row[3] != "discharge_rate"]  # that of a slot, by its own opening, is another quantity
 
 
 def rows_of(file):
@@ -50,14 +57,25 @@ def number(text):
     return f"{value:.1f}"
 
 
+def scale_of(row):
+    """Per cent in one unit of the row: of what `relative` is in parts of. None where it is not known."""
+    value, relative, reference = (float(row[k]) for k in ("value", "relative", "reference"))
+    if row["measure"] == "difference":
+        return 100 / abs(reference) if reference != 0 else None
+    if row["measure"] == "ks":
+        return 100
+    return 100 * relative / value if value != 0 else None
+
+
 def cell(row):
-    """Value and interval in per cent of what `relative` is in parts of."""
-    if row is None or row["value"] in ("", "nan"):
+    """Value and interval in per cent; of a value without an interval the value."""
+    scale = None if row is None or row["value"] in ("", "nan") else scale_of(row)
+    if scale is None:
         return "-"
-    value, relative = float(row["value"]), float(row["relative"])
-    scale = 100 * relative / value if value != 0 else 0
-    interval = sorted(scale * float(row[k]) for k in ("low", "high"))
-    text = f"{number(scale * value)} [{number(interval[0])}, {number(interval[1])}]"
+    value, low, high = (scale * float(row[k]) for k in ("value", "low", "high"))
+    if row["measure"] == "difference":
+        low = max(low, -100)
+    text = f"{number(value)} [{number(low)}, {number(high)}]" if math.isfinite(low) and math.isfinite(high) else number(value)
     return f"**{text}**" if row["beyond"] == "1" else text
 
 
@@ -68,7 +86,8 @@ def table(folder, columns, quantities):
     print("| [%] | " + " | ".join(tables) + " |\n|---" + "|---" * len(tables) + "|")
     for heading, moment, kind, quantity, region, measure in quantities:
         cells = [cell(rows.get((moment, kind, quantity, region, measure))) for rows in tables.values()]
-        print(f"| {heading} | " + " | ".join(cells) + " |")
+        if set(cells) != {"-"}:
+            print(f"| {heading} | " + " | ".join(cells) + " |")
     arched = [rows.get(("flow_mean", "scalar", "arched", "all", "difference")) for rows in tables.values()]
     if any(arched):
         print("| arched | " + " | ".join(
@@ -87,7 +106,7 @@ def main(comparisons):
     for angle in (90, 45):
         table(folder, [(f"{angle}°, clamp", f"hopper20_a{angle}")] + [
             (f"{angle}°, {bound}", f"sides_a{angle}_{bound}") for bound in ("images", "pin", "line", "frictionless", "rigid")], SIDES)
-    table(folder, [("slot", "sides_slot")], SIDES)
+    table(folder, [("slot", "sides_slot")], SLOT)
 
 
 if __name__ == "__main__":

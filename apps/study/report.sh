@@ -21,4 +21,4 @@ else
   mkdir -p $out
 fi
 bash apps/study/compare.sh $runs $out/comparisons
-"$WEDGE" report $runs --compare $out/comparisons/*.csv -o $out/report.html --title "Sectors against the full vessel (made by: bash apps/study/report.sh $*)"
+"$WEDGE" report $runs --compare $out/comparisons/*.csv -o $out/report.html --title "Sectors against the full vessel (made by: bash apps/study/report.sh${*:+ $*})"
