@@ -71,6 +71,14 @@ double number(const Row& row, const std::string& column) {
   return value;
 }
 
+/// Every `what` of a file becomes `with`.
+void rewrite(const std::string& path, const std::string& what, const std::string& with) {
+  std::string text = read_text_file(path);
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+  write_text_file_atomically(path, text);
+}
+
 std::string complaint(const std::function<void()>& action) {
   try {
     action();
@@ -212,6 +220,7 @@ TEST_CASE("Sets of mixed angles and moments that are not there are wrong usage",
   const Said mixed = compare(full, sector);
   CHECK(mixed.code == 2);
   CHECK(has(mixed.errors, "the compared runs are of different domains: " + sector[0] + " (90 degrees)"));
+  CHECK(mixed.text.empty());
   CHECK(compare(sector, full).code == 2);
 }
 
@@ -317,4 +326,23 @@ TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
   CHECK(rms["core"] == Approx(2));
   CHECK(rms["rest"] == Approx(1));
   CHECK(rms["all"] == Approx(std::sqrt(2.5)));
+}
+
+TEST_CASE("A run named twice is refused, two of one scene and seed are pointed out", "[compare]") {
+  Study study;
+  const auto full = study.full(3), sector = study.sectors(1, 0);
+  const std::string again = full[0] + "/../" + fs::path(full[0]).filename().string();
+  const Said twice = compare({full[0], full[1], again}, sector);
+  CHECK(twice.code == 2);
+  CHECK(twice.text.empty());
+  CHECK(has(twice.errors, "the reference runs name one run twice: " + full[0] + " and " + again));
+  CHECK(compare(full, {sector[0], sector[0]}).code == 2);
+
+  const std::string says = "warning: " + full[0] + ", " + full[1] + ": the same scene and seed";
+  rewrite(full[2] + "/scene.resolved.toml", "[particles]\n", "[particles]\nseed = 3\n");
+  CHECK(has(compare(full, sector).text, says));
+  rewrite(full[1] + "/scene.resolved.toml", "[particles]\n", "[run]\nthreads = 2\n[particles]\n");
+  CHECK(has(compare(full, sector).text, says));  // however it was run
+  rewrite(full[1] + "/scene.resolved.toml", "[particles]\n", "[particles]\nseed = 2\n");
+  CHECK_FALSE(has(compare(full, sector).text, "the same scene and seed"));
 }
