@@ -123,7 +123,7 @@ int compare_analyses(RunSets& sets, const CompareOptions& options) {
   std::vector<ComparisonRow> rows;
   for (const std::string& moment : moments) {
     const std::vector<ComparisonRow> of_moment = compare(sets, moment);
-    std::cout << moment_text(moment, of_moment) << std::flush;
+    std::cout << moment_text(moment, of_moment, velocities_at_rest(sets, moment)) << std::flush;
     rows.insert(rows.end(), of_moment.begin(), of_moment.end());
   }
   std::cout << legend_text(rows);

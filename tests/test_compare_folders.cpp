@@ -79,6 +79,19 @@ void rewrite(const std::string& path, const std::string& what, const std::string
   write_text_file_atomically(path, text);
 }
 
+/// The bed of a moment comes to rest: all grains in the two bins of vz beside 0, or one more besides.
+void lay_to_rest(const std::string& folder, const std::string& moment, bool one_moves = false) {
+  const std::string path = folder + "/results/distributions.csv", middle = ",vz,m/s,1000000,1e-6,";
+  std::istringstream text(read_text_file(path));
+  std::string line, all;
+  while (std::getline(text, line)) {
+    if (line.compare(0, moment.size() + 1, moment + ",") == 0)
+      line = line.substr(0, line.find(middle)) + middle + (one_moves ? "-2,1 80 120" : "-1,80 120");
+    all += line + "\n";
+  }
+  write_text_file_atomically(path, all);
+}
+
 std::string complaint(const std::function<void()>& action) {
   try {
     action();
@@ -326,6 +339,44 @@ TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
   CHECK(rms["core"] == Approx(2));
   CHECK(rms["rest"] == Approx(1));
   CHECK(rms["all"] == Approx(std::sqrt(2.5)));
+}
+
+TEST_CASE("Velocities of a bed at rest are left out where nothing of them is resolved", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(2, 0);
+  std::vector<std::string> folders = full;
+  folders.insert(folders.end(), sector.begin(), sector.end());
+  for (const std::string& folder : folders) {
+    lay_to_rest(folder, "settle");
+    rewrite(folder + "/results/scalars.csv", ",cn,-,", ",speed,m/s,");
+    rewrite(folder + "/results/radial.csv", ",cn\n", ",speed_spread [m/s]\n");
+  }
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  const auto velocities = [&](const std::string& moment) {
+    int rows = 0;
+    for (const Row& row : rows_of(options.csv))
+      rows += row.at("moment") == moment && row.at("quantity") != "cn" ? 1 : 0;
+    return rows;
+  };
+  const Said rest = compare(full, sector, options);
+  CHECK(has(rest.text, "moment settle\n  velocities: at rest, none is resolved\n"));
+  CHECK_FALSE(has(rest.text, "moment flow_mean\n  velocities"));
+  CHECK(velocities("settle") == 0);
+  CHECK(velocities("flow_mean") == 2 + 6 + 3);
+  CHECK(rows_of(options.csv).size() == 2 + 6 + 3 + 2 * 3);  // cn of the maps of both moments stays
+
+  const auto judged = [&](const std::string& text) {
+    options.tolerance = study.file("t.toml", "[[tolerance]]\nrelative = 100\n" + text);
+    return compare(full, sector, options).code;
+  };
+  CHECK(judged("quantity = \"vz\"\n") == 0);  // of the other moment
+  CHECK(has(complaint([&] { judged("moment = \"settle\"\nquantity = \"vz\"\n"); }), "is about no row"));
+  options.tolerance.clear();
+
+  lay_to_rest(sector[0], "settle", true);  // one grain of one run moves
+  CHECK_FALSE(has(compare(full, sector, options).text, "velocities: at rest"));
+  CHECK(velocities("settle") == 2 + 6 + 3);
 }
 
 TEST_CASE("A run named twice is refused, two of one scene and seed are pointed out", "[compare]") {

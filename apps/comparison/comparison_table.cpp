@@ -116,8 +116,9 @@ std::string sets_text(const RunSets& sets) {
   return text + "yardstick: " + yardstick_text(sets) + "\n";
 }
 
-std::string moment_text(const std::string& moment, const std::vector<ComparisonRow>& rows) {
+std::string moment_text(const std::string& moment, const std::vector<ComparisonRow>& rows, bool at_rest) {
   std::string text = "\nmoment " + moment + "\n";
+  if (at_rest) text += "  velocities: at rest, none is resolved\n";
   for (const Section& section : sections) {
     std::vector<const ComparisonRow*> of_section;
     for (const ComparisonRow& row : rows)
