@@ -79,6 +79,14 @@ void rewrite(const std::string& path, const std::string& what, const std::string
   write_text_file_atomically(path, text);
 }
 
+const char* const result_files[] = {"scalars.csv", "distributions.csv", "radial.csv", "map.csv"};
+
+/// Takes wedge number `wedge` out of the results of a run.
+void take_wedge_out(const std::string& folder, int wedge) {
+  for (const char* file : result_files)
+    rewrite(folder + "/results/" + file, "wedge_90_" + std::to_string(wedge), "other_" + std::to_string(wedge));
+}
+
 /// The bed of a moment comes to rest: all grains in the two bins of vz beside 0, or one more besides.
 void lay_to_rest(const std::string& folder, const std::string& moment, bool one_moves = false) {
   const std::string path = folder + "/results/distributions.csv", middle = ",vz,m/s,1000000,1e-6,";
@@ -339,6 +347,31 @@ TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
   CHECK(rms["core"] == Approx(2));
   CHECK(rms["rest"] == Approx(1));
   CHECK(rms["all"] == Approx(std::sqrt(2.5)));
+}
+
+TEST_CASE("Fewer than four wedges are no yardstick, and it is said what gives one", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(1, 0);
+  for (const std::string& folder : full)
+    for (const int wedge : {2, 3}) take_wedge_out(folder, wedge);
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  const Said few = compare({full[0]}, sector, options);
+  CHECK(
+      has(few.text,
+          "yardstick: not known: 2 wedges of this angle are too few, at least 4 of all reference runs are needed; "
+          "cut more: wedge analyse REF --angles 90 --wedges 4; or name more reference runs (seeds)\n"));
+  for (const Row& row : rows_of(options.csv)) {
+    CHECK(row.at("beyond") == "nan");
+    CHECK(row.at("yardstick_high") == "nan");
+  }
+  const Said enough = compare(full, sector, options);
+  CHECK(has(enough.text, "drawn 1000 times from the 4 wedges of the 2 reference runs"));
+  for (const Row& row : rows_of(options.csv)) CHECK(row.at("beyond") != "nan");
+  // A vessel has but two halves.
+  for (const char* file : result_files) rewrite(full[0] + "/results/" + file, "wedge_90_", "wedge_180_");
+  const Said halves = compare({full[0]}, study.sectors(1, 0, 180));
+  CHECK(has(halves.text, "a vessel has only 2 of them: name 2 reference runs (seeds) or more\n"));
 }
 
 TEST_CASE("Velocities of a bed at rest are left out where nothing of them is resolved", "[compare]") {
