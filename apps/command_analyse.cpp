@@ -1,14 +1,24 @@
 // command_analyse.cpp: wedge analyse: measures a run and says where the results are.
-#include <cmath>
+#include <charconv>
 #include <iostream>
+#include <string>
 
 #include "apps/analysis/analyse.hpp"
 #include "apps/commands.hpp"
 #include "apps/threads.hpp"
 #include "core/parallel.hpp"
-#include "io/csv.hpp"
 
 namespace wedge {
+namespace {
+
+/// A time as people read it: 9 digits, without what rounding left behind them.
+std::string time_text(double seconds) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, seconds, std::chars_format::general, 9);
+  return std::string(buffer, end.ptr);
+}
+
+}  // namespace
 
 int command_analyse(const AnalyseArguments& arguments) {
   set_thread_count(arguments.threads > 0 ? arguments.threads : usable_threads());
@@ -23,11 +33,12 @@ int command_analyse(const AnalyseArguments& arguments) {
   for (const Moment& m : report.moments) {
     std::cout << m.name << ": ";
     if (m.average)
-      std::cout << m.frames.size() << (m.frames.size() == 1 ? " frame, " : " frames, ") << number_text(m.begin)
+      std::cout << m.frames.size() << (m.frames.size() == 1 ? " frame, " : " frames, ") << time_text(m.begin)
                 << " to ";
-    std::cout << number_text(m.end) << " s\n";
+    std::cout << time_text(m.end) << " s\n";
   }
   if (arguments.wedges > 0 && !report.full_vessel) std::cout << "no wedges: they are cut from full vessels alone\n";
+  for (const std::string& note : report.notes) std::cout << note << '\n';
   std::cout << report.frames << (report.frames == 1 ? " frame" : " frames") << " read; written:\n";
   for (const std::string& file : report.files) std::cout << "  " << file << '\n';
   return exit_code::ok;

@@ -23,7 +23,7 @@ const char* const examples =
     "  wedge run hopper.toml -o sector90 --set domain.angle=90 --set particles.seed=2\n"
     "  wedge status full\n"
     "  wedge resume full --wall-time 12:00:00\n"
-    "  wedge analyse full --wedges 2\n"
+    "  wedge analyse full --wedges 4\n"
     "  wedge compare full_1 full_2 --with sector90_1 sector90_2 --csv table.csv\n"
     "  wedge report full_1 full_2 sector90_1 sector90_2 --compare table.csv -o page.html\n"
     "  wedge export sector90 --last --to csv --unfold -o state.csv\n"

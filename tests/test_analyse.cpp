@@ -1,5 +1,7 @@
 // test_analyse.cpp: wedge analyse on whole runs: moments, files, threads, and what it refuses.
 #include <filesystem>
+#include <iostream>
+#include <sstream>
 
 #include "apps/analysis/analyse.hpp"
 #include "core/parallel.hpp"
@@ -32,6 +34,17 @@ AnalysisReport analysed(const std::string& run, PartRequest parts = {}, std::opt
   request.parts = std::move(parts);
   request.span = span;
   return analyse(request);
+}
+
+/// What the command prints.
+std::string printed(const AnalyseArguments& arguments) {
+  std::ostringstream out;
+  struct Restore {
+    std::streambuf* screen;
+    ~Restore() { std::cout.rdbuf(screen); }
+  } const restore{std::cout.rdbuf(out.rdbuf())};
+  command_analyse(arguments);
+  return out.str();
 }
 
 }  // namespace
@@ -118,6 +131,25 @@ TEST_CASE("wedge analyse: the wedges of a full vessel make up the whole") {
     CHECK(grains == Approx(scalar(run, moment, "whole", "grains")).epsilon(1e-4));
     CHECK(weighted / grains == Approx(scalar(run, moment, "whole", "cn")).epsilon(0.01));
   }
+  // What does not come out as it was asked for is said; times are told to nine digits.
+  AnalyseArguments asked;
+  asked.folder = run;
+  asked.orders = {3, 4};
+  asked.wedges = 9;
+  asked.cut = 5;
+  asked.threads = 2;
+  const std::string text = printed(asked);
+  CHECK_THAT(text,
+             Catch::Contains(" m of the height 5 m at settle, discharge; centres of the bed's grains lie between"));
+  CHECK_THAT(text, Catch::Contains("cut.csv: no grain lies within 0.0044") && Catch::Contains(" and 0.1"));
+  CHECK_THAT(text, Catch::Contains("wedges: of the 9 asked for a vessel has room for 3 of 120, 4 of 90 degrees\n"));
+  CHECK_THAT(text, Catch::Contains("settle: 0.15 s\n"));
+  CHECK_THAT(text, Catch::Contains(" to 0.25 s\n"));
+  asked.cut = 0.01;
+  asked.wedges = 3;
+  const std::string plain = printed(asked);
+  CHECK_THAT(plain, !Catch::Contains("no grain lies"));
+  CHECK_THAT(plain, !Catch::Contains("wedges:"));
 }
 
 TEST_CASE("wedge analyse: refuses what is no run, and one that has not got to the end of a stage") {

@@ -291,7 +291,12 @@ TEST_CASE("What the yardstick of a set rests on") {
   CHECK(plan_yardstick({true, 4, 4}, {4, 4, 0}).pieces == 3);
   CHECK(plan_yardstick({true, 1, 1}, {4}).why_not == "one reference run has no spread");
   CHECK(plan_yardstick(quarter, {0, 0}).why_not == "the reference runs have no wedges of this angle");
-  CHECK(plan_yardstick(quarter, {0, 1}).why_not == "one wedge has no spread");
+  for (const auto& few : std::vector<std::vector<std::size_t>>{{2}, {0, 3}, {1, 1, 1}})
+    CHECK(plan_yardstick(quarter, few).why_not.find("too few") != std::string::npos);
+  CHECK(plan_yardstick(quarter, {0, 1}).why_not ==
+        "1 wedge of this angle is too few, at least 4 of all reference runs are needed");
+  CHECK(plan_yardstick(quarter, {2, 2}).why_not.empty());
+  CHECK(plan_yardstick(quarter, {4}).why_not.empty());
 }
 
 TEST_CASE("A sector of the same law is rarely beyond the yardstick, another often") {
@@ -340,4 +345,32 @@ TEST_CASE("The rounding of a mean is not beyond a yardstick of no width") {
   o.wedges.assign(6, {scalar(0.1), scalar(0.1)});
   o.compared.assign(1, scalar(std::nextafter(0.1, 1.0)));
   CHECK_FALSE(compare(o, {false, 2, 1})[0].beyond);
+}
+
+TEST_CASE("Where no wedge differs, only what an interval keeps off 0, or many runs show, is beyond") {
+  const auto beyond = [](std::size_t wedges, const std::vector<double>& compared, double own = std::nan("")) {
+    Observable o;
+    o.reference = {scalar(2)};
+    o.reference_errors = {std::nan("")};
+    o.wedges = {std::vector<Sample>(wedges, scalar(2))};
+    for (const double value : compared) {
+      o.compared.push_back(scalar(value));
+      o.compared_errors.push_back(own);
+    }
+    const ComparisonRow row = compare(o, quarter)[0];
+    CHECK(row.yardstick.low == 2 - 2);
+    CHECK(row.yardstick.high == 2 - 2);
+    return row.beyond;
+  };
+  CHECK_FALSE(beyond(4, {2, 2, 2.3}));  // the interval holds 0
+  CHECK(beyond(4, {3, 3.1, 2.9}));
+  CHECK_FALSE(beyond(4, {3}, 2));
+  CHECK(beyond(4, {3}, 0.2));
+  // Neither wedges nor compared runs differ among themselves: n + m equal things fall apart so once in (n + m over
+  // m).
+  CHECK_FALSE(beyond(4, {3}));
+  CHECK_FALSE(beyond(4, {3, 3}));
+  CHECK(beyond(4, {3, 3, 3}));
+  CHECK_FALSE(beyond(18, {3}));
+  CHECK(beyond(19, {3}));
 }

@@ -71,6 +71,35 @@ double number(const Row& row, const std::string& column) {
   return value;
 }
 
+/// Every `what` of a file becomes `with`.
+void rewrite(const std::string& path, const std::string& what, const std::string& with) {
+  std::string text = read_text_file(path);
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+  write_text_file_atomically(path, text);
+}
+
+const char* const result_files[] = {"scalars.csv", "distributions.csv", "radial.csv", "map.csv"};
+
+/// Takes wedge number `wedge` out of the results of a run.
+void take_wedge_out(const std::string& folder, int wedge) {
+  for (const char* file : result_files)
+    rewrite(folder + "/results/" + file, "wedge_90_" + std::to_string(wedge), "other_" + std::to_string(wedge));
+}
+
+/// The bed of a moment comes to rest: all grains in the two bins of vz beside 0, or one more besides.
+void lay_to_rest(const std::string& folder, const std::string& moment, bool one_moves = false) {
+  const std::string path = folder + "/results/distributions.csv", middle = ",vz,m/s,1000000,1e-6,";
+  std::istringstream text(read_text_file(path));
+  std::string line, all;
+  while (std::getline(text, line)) {
+    if (line.compare(0, moment.size() + 1, moment + ",") == 0)
+      line = line.substr(0, line.find(middle)) + middle + (one_moves ? "-2,1 80 120" : "-1,80 120");
+    all += line + "\n";
+  }
+  write_text_file_atomically(path, all);
+}
+
 std::string complaint(const std::function<void()>& action) {
   try {
     action();
@@ -212,6 +241,7 @@ TEST_CASE("Sets of mixed angles and moments that are not there are wrong usage",
   const Said mixed = compare(full, sector);
   CHECK(mixed.code == 2);
   CHECK(has(mixed.errors, "the compared runs are of different domains: " + sector[0] + " (90 degrees)"));
+  CHECK(mixed.text.empty());
   CHECK(compare(sector, full).code == 2);
 }
 
@@ -317,4 +347,86 @@ TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
   CHECK(rms["core"] == Approx(2));
   CHECK(rms["rest"] == Approx(1));
   CHECK(rms["all"] == Approx(std::sqrt(2.5)));
+}
+
+TEST_CASE("Fewer than four wedges are no yardstick, and it is said what gives one", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(1, 0);
+  for (const std::string& folder : full)
+    for (const int wedge : {2, 3}) take_wedge_out(folder, wedge);
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  const Said few = compare({full[0]}, sector, options);
+  CHECK(
+      has(few.text,
+          "yardstick: not known: 2 wedges of this angle are too few, at least 4 of all reference runs are needed; "
+          "cut more: wedge analyse REF --angles 90 --wedges 4; or name more reference runs (seeds)\n"));
+  for (const Row& row : rows_of(options.csv)) {
+    CHECK(row.at("beyond") == "nan");
+    CHECK(row.at("yardstick_high") == "nan");
+  }
+  const Said enough = compare(full, sector, options);
+  CHECK(has(enough.text, "drawn 1000 times from the 4 wedges of the 2 reference runs"));
+  for (const Row& row : rows_of(options.csv)) CHECK(row.at("beyond") != "nan");
+  // A vessel has but two halves.
+  for (const char* file : result_files) rewrite(full[0] + "/results/" + file, "wedge_90_", "wedge_180_");
+  const Said halves = compare({full[0]}, study.sectors(1, 0, 180));
+  CHECK(has(halves.text, "a vessel has only 2 of them: name 2 reference runs (seeds) or more\n"));
+}
+
+TEST_CASE("Velocities of a bed at rest are left out where nothing of them is resolved", "[compare]") {
+  Study study;
+  const auto full = study.full(2), sector = study.sectors(2, 0);
+  std::vector<std::string> folders = full;
+  folders.insert(folders.end(), sector.begin(), sector.end());
+  for (const std::string& folder : folders) {
+    lay_to_rest(folder, "settle");
+    rewrite(folder + "/results/scalars.csv", ",cn,-,", ",speed,m/s,");
+    rewrite(folder + "/results/radial.csv", ",cn\n", ",speed_spread [m/s]\n");
+  }
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  const auto velocities = [&](const std::string& moment) {
+    int rows = 0;
+    for (const Row& row : rows_of(options.csv))
+      rows += row.at("moment") == moment && row.at("quantity") != "cn" ? 1 : 0;
+    return rows;
+  };
+  const Said rest = compare(full, sector, options);
+  CHECK(has(rest.text, "moment settle\n  velocities: at rest, none is resolved\n"));
+  CHECK_FALSE(has(rest.text, "moment flow_mean\n  velocities"));
+  CHECK(velocities("settle") == 0);
+  CHECK(velocities("flow_mean") == 2 + 6 + 3);
+  CHECK(rows_of(options.csv).size() == 2 + 6 + 3 + 2 * 3);  // cn of the maps of both moments stays
+
+  const auto judged = [&](const std::string& text) {
+    options.tolerance = study.file("t.toml", "[[tolerance]]\nrelative = 100\n" + text);
+    return compare(full, sector, options).code;
+  };
+  CHECK(judged("quantity = \"vz\"\n") == 0);  // of the other moment
+  CHECK(has(complaint([&] { judged("moment = \"settle\"\nquantity = \"vz\"\n"); }), "is about no row"));
+  options.tolerance.clear();
+
+  lay_to_rest(sector[0], "settle", true);  // one grain of one run moves
+  CHECK_FALSE(has(compare(full, sector, options).text, "velocities: at rest"));
+  CHECK(velocities("settle") == 2 + 6 + 3);
+}
+
+TEST_CASE("A run named twice is refused, two of one scene and seed are pointed out", "[compare]") {
+  Study study;
+  const auto full = study.full(3), sector = study.sectors(1, 0);
+  const std::string again = full[0] + "/../" + fs::path(full[0]).filename().string();
+  const Said twice = compare({full[0], full[1], again}, sector);
+  CHECK(twice.code == 2);
+  CHECK(twice.text.empty());
+  CHECK(has(twice.errors, "the reference runs name one run twice: " + full[0] + " and " + again));
+  CHECK(compare(full, {sector[0], sector[0]}).code == 2);
+
+  const std::string says = "warning: " + full[0] + ", " + full[1] + ": the same scene and seed";
+  rewrite(full[2] + "/scene.resolved.toml", "[particles]\n", "[particles]\nseed = 3\n");
+  CHECK(has(compare(full, sector).text, says));
+  rewrite(full[1] + "/scene.resolved.toml", "[particles]\n", "[run]\nthreads = 2\n[particles]\n");
+  CHECK(has(compare(full, sector).text, says));  // however it was run
+  rewrite(full[1] + "/scene.resolved.toml", "[particles]\n", "[particles]\nseed = 2\n");
+  CHECK_FALSE(has(compare(full, sector).text, "the same scene and seed"));
 }

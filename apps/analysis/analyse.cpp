@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "core/time_scales.hpp"
 #include "io/atomic_file.hpp"
+#include "io/scene_diagnostics.hpp"
 
 namespace wedge {
 namespace {
@@ -49,9 +51,47 @@ double mean_mass(const BedFrame& bed) {
   return bed.grains.empty() ? 1 : sum / static_cast<double>(bed.grains.size());
 }
 
+/// Instants at whose cut no grain lies.
+struct EmptyCuts {
+  std::string moments;  // names with commas between
+  double height = 0;    // m, of the last of them
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();  // m, between which centres of the bed lie at any of them
+
+  void note(const std::string& moment, double at, const BedFrame& bed) {
+    moments += (moments.empty() ? "" : ", ") + moment;
+    height = at;
+    for (const BedGrain& g : bed.grains) {
+      if (!g.in_bed) continue;
+      low = std::min(low, g.position.z);
+      high = std::max(high, g.position.z);
+    }
+  }
+};
+
 struct Pictures {
   std::string slice, network, cut;
+  EmptyCuts empty;
 };
+
+std::string empty_cuts_text(const EmptyCuts& empty, double reach) {
+  const std::string text = "cut.csv: no grain lies within " + short_number(reach) + " m of the height " +
+                           short_number(empty.height) + " m at " + empty.moments;
+  return text + (empty.high < empty.low ? "; there is no grain in the bed"
+                                        : "; centres of the bed's grains lie between " + short_number(empty.low) +
+                                              " and " + short_number(empty.high) + " m");
+}
+
+/// Which angles have no room for as many wedges as were asked for, and how many they have; "" when all have it.
+std::string wedges_left_out(const PartRequest& request) {
+  std::string text;
+  for (const int order : request.orders)
+    if (order < request.wedges)
+      text += (text.empty() ? "" : ", ") + std::to_string(order) + " of " + degrees_text(order);
+  if (text.empty()) return "";
+  return "wedges: of the " + std::to_string(request.wedges) + " asked for a vessel has room for " + text +
+         " degrees";
+}
 
 /// Reads the frames that some moment wants, once each.
 SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, const std::vector<Moment>& moments,
@@ -74,8 +114,10 @@ SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, con
       for (auto& part : sums[m]) wanting.push_back(part.get());
       if (moments[m].average) continue;
       append_slice(pictures.slice, pictures.network, moments[m].name, slice_picture(run, bed));
-      append_cut(pictures.cut, moments[m].name,
-                 cut_picture(run, bed, request.cut.value_or(bed.ground + 5 * run.diameter)));
+      const double height = request.cut.value_or(bed.ground + 5 * run.diameter);
+      const std::vector<PictureGrain> cut = cut_picture(run, bed, height);
+      append_cut(pictures.cut, moments[m].name, cut);
+      if (cut.empty()) pictures.empty.note(moments[m].name, height, bed);
     }
     // Each adds to its own sums, one alone over its own blocks.
     for_each_block(static_cast<Index>(wanting.size()),
@@ -165,6 +207,9 @@ AnalysisReport analyse(const AnalysisRequest& request) {
   for (const Moment& m : report.moments) until = std::max(until, m.end);
   if (run.scene.domain.outlet_height) write("flow.csv", flow_csv(run, crossings, until));
   write("summary.json", summary_json(run, results));
+  if (!pictures.empty.moments.empty()) report.notes.push_back(empty_cuts_text(pictures.empty, run.diameter));
+  const std::string left_out = wedges_left_out(request.parts);
+  if (report.full_vessel && !left_out.empty()) report.notes.push_back(left_out);
   return report;
 }
 

@@ -22,6 +22,7 @@ struct AnalysisReport {
   std::size_t frames = 0;          // read, each once
   bool full_vessel = false;        // one that wedges can be cut from
   std::vector<std::string> files;  // written
+  std::vector<std::string> notes;  // a line each: what is not as it was asked for
 };
 
 /// Reads each frame once, in order, one in memory at a time. Throws FileError.

@@ -20,8 +20,29 @@ bool outside(double value, Measure measure, const Yardstick& y) {
   return value > y.high;
 }
 
+/// Whether n and m equal things, put in any order, come to stand apart, the n before the m, so rarely that chance
+/// is no reason: one of C(n + m, m) orders, 5 % or less.
+bool apart(std::size_t n, std::size_t m) {
+  double orders = 1;
+  for (std::size_t k = 1; k <= m && orders < 20; ++k) orders *= static_cast<double>(n + k) / static_cast<double>(k);
+  return orders > 19.5;
+}
+
 /// Rounding alone is no difference: two runs of equal numbers must not be told apart by the order of a sum.
 bool is_rounding(double value, double scale) { return std::abs(value) <= 1e-12 * scale; }
+
+/// Against a yardstick of no width, that of wedges which all agree, what the interval says decides: it knows more,
+/// the scatter of the compared runs. Where that has no width either, only numbers are left.
+bool beyond_agreement(const ComparisonRow& row, double scale) {
+  if (!(row.interval.low > 0 || row.interval.high < 0)) return false;
+  return !is_rounding(row.interval.high - row.interval.low, scale) ||
+         apart(row.yardstick.pieces, row.compared_runs);
+}
+
+bool is_beyond(const ComparisonRow& row, double scale) {
+  if (!outside(row.value, row.measure, row.yardstick) || is_rounding(row.value, scale)) return false;
+  return !is_rounding(row.yardstick.high - row.yardstick.low, scale) || beyond_agreement(row, scale);
+}
 
 ComparisonRow row_of(const Observable& o, Measure measure, const Design& design) {
   const Pool reference = pool_of(o.reference), compared = pool_of(o.compared);
@@ -47,9 +68,9 @@ ComparisonRow row_of(const Observable& o, Measure measure, const Design& design)
   row.interval = confidence(o, measure, design);
   row.relative = in_parts_of(row.value, first.scale);
   row.yardstick = yardstick(o, measure, design);
-  row.beyond = outside(row.value, measure, row.yardstick) && !is_rounding(row.value, first.scale);
   row.reference_runs = o.reference.size();
   row.compared_runs = o.compared.size();
+  row.beyond = is_beyond(row, first.scale);
   return row;
 }
 

@@ -85,15 +85,25 @@ std::string domains_text(const RunResults& run, std::size_t n) {
                                   : "sector" + plural + " of " + angle_text(run.order) + " degrees");
 }
 
+/// What gives the yardstick the wedges that it lacks.
+std::string advice(const RunSets& sets, std::size_t cut_already) {
+  const auto in_vessel = static_cast<std::size_t>(sets.wedge_order / sets.reference[0].order);
+  const std::string cut = "wedge analyse REF --angles " + angle_text(sets.wedge_order) + " --wedges ";
+  if (in_vessel * sets.reference.size() >= fewest_wedges)
+    return (cut_already > 0 ? "; cut more: " : "; cut some: ") + cut +
+           std::to_string(std::min(fewest_wedges, in_vessel)) + "; or name more reference runs (seeds)";
+  const std::size_t needed = (fewest_wedges + in_vessel - 1) / in_vessel;
+  return "; cut all: " + cut + std::to_string(in_vessel) + "; a vessel has only " + std::to_string(in_vessel) +
+         " of them: name " + std::to_string(needed) + " reference runs (seeds) or more";
+}
+
 std::string yardstick_text(const RunSets& sets) {
   const Design design = design_of(sets);
   std::vector<std::size_t> wedges;
   for (const RunResults& run : sets.reference) wedges.push_back(run.wedges.size());
   const YardstickPlan plan = plan_yardstick(design, wedges);
   if (!plan.why_not.empty()) {
-    const bool cut = !design.alike && sets.wedge_order > 0;
-    return "not known: " + plan.why_not +
-           (cut ? "; cut some: wedge analyse REF --angles " + angle_text(sets.wedge_order) + " --wedges 4" : "");
+    return "not known: " + plan.why_not + (!design.alike && sets.wedge_order > 0 ? advice(sets, plan.pieces) : "");
   }
   const std::string piece = design.alike ? "run" : "wedge";
   std::string text = runs(sets.compared.size(), piece) + " against " + domains_text(sets.reference[0], plan.runs);
@@ -116,8 +126,9 @@ std::string sets_text(const RunSets& sets) {
   return text + "yardstick: " + yardstick_text(sets) + "\n";
 }
 
-std::string moment_text(const std::string& moment, const std::vector<ComparisonRow>& rows) {
+std::string moment_text(const std::string& moment, const std::vector<ComparisonRow>& rows, bool at_rest) {
   std::string text = "\nmoment " + moment + "\n";
+  if (at_rest) text += "  velocities: at rest, none is resolved\n";
   for (const Section& section : sections) {
     std::vector<const ComparisonRow*> of_section;
     for (const ComparisonRow& row : rows)

@@ -88,6 +88,38 @@ Observable distribution(const RunSets& sets, const ResultName& name, const std::
   return o;
 }
 
+const char* const velocity_names[] = {"vr", "vt", "vz"};
+
+/// Of scalars, distributions and columns.
+bool is_velocity(const std::string& quantity) {
+  return quantity == "speed" || quantity == "speed_spread" ||
+         std::find(std::begin(velocity_names), std::end(velocity_names), quantity) != std::end(velocity_names);
+}
+
+/// Whether all grains are in bins that reach zero.
+bool beside_zero(const DistributionResult& distribution) {
+  const Eigen::ArrayXd& edges = distribution.edges;
+  for (Eigen::Index k = 0; k < distribution.counts.size(); ++k)
+    if (distribution.counts[k] > 0 && (edges[k] > 0 || edges[k + 1] < 0)) return false;
+  return true;
+}
+
+/// Distributions of velocities of a moment: whether there are any, and whether they tell no more than signs.
+struct Unresolved {
+  bool any = false, all = true;
+};
+Unresolved unresolved_velocities(const std::vector<RunResults>& runs, const std::string& moment) {
+  Unresolved found;
+  for (const RunResults& run : runs) {
+    for (const auto& [name, distribution] : run.distributions) {
+      if (name.moment != moment || !is_velocity(name.quantity)) continue;
+      found.any = true;
+      found.all = found.all && beside_zero(distribution);
+    }
+  }
+  return found;
+}
+
 template <class T>
 void append_missing(std::vector<T>& list, const T& entry) {
   if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
@@ -135,10 +167,17 @@ std::vector<std::string> common_moments(const RunSets& sets) {
   return both;
 }
 
+bool velocities_at_rest(const RunSets& sets, const std::string& moment) {
+  const Unresolved reference = unresolved_velocities(sets.reference, moment),
+                   compared = unresolved_velocities(sets.compared, moment);
+  return reference.any && compared.any && reference.all && compared.all;
+}
+
 std::vector<Observable> observables(const RunSets& sets, const std::string& moment) {
   std::vector<Observable> all;
+  const bool at_rest = velocities_at_rest(sets, moment);
   const auto keep = [&](Observable o, const std::string& region, const std::string& quantity) {
-    if (o.reference.empty() || o.compared.empty()) return;
+    if (o.reference.empty() || o.compared.empty() || (at_rest && is_velocity(quantity))) return;
     o.moment = moment;
     o.region = region;
     o.quantity = quantity;

@@ -23,7 +23,11 @@ bool has_core(const RunSets& sets);
 
 /// Moments that a run of each set has, in the order of the files.
 std::vector<std::string> common_moments(const RunSets& sets);
-/// All that both sets tell of a moment: scalars, distributions, profiles, maps.
+/// Whether the distributions of velocities of a moment, of every run and wedge of both sets, have all grains in the
+/// two bins beside zero: only the sign of a velocity is then resolved, which of a bed at rest is that of round-off.
+bool velocities_at_rest(const RunSets& sets, const std::string& moment);
+/// All that both sets tell of a moment: scalars, distributions, profiles, maps; of velocities nothing where they
+/// are at rest.
 std::vector<Observable> observables(const RunSets& sets, const std::string& moment);
 
 }  // namespace wedge

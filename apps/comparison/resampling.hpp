@@ -34,6 +34,9 @@ struct Confidence {
 /// own intervals of the runs. README.md says how.
 Confidence confidence(const Observable& observable, Measure measure, const Design& design);
 
+/// Fewer wedges, of all reference runs together, are no yardstick: two may agree by chance.
+inline constexpr std::size_t fewest_wedges = 4;
+
 /// What the yardstick of a set can rest on.
 struct YardstickPlan {
   std::string why_not;     // no yardstick; else empty
@@ -50,6 +53,7 @@ YardstickPlan plan_yardstick(const Design& design, const std::vector<std::size_t
 
 struct Yardstick {
   double median = 0, low = 0, high = 0;  // 95 % of what sets of equal laws give lies between; nan: not known
+  std::size_t pieces = 0;                // that were drawn from, as in YardstickPlan
 };
 /// Distances of as many wedges as there are compared runs to as many vessels as there are reference runs, both
 /// drawn from the reference runs, independently and with replacement.

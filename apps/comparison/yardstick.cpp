@@ -38,8 +38,12 @@ YardstickPlan plan_yardstick(const Design& design, const std::vector<std::size_t
   plan.one_run = plan.runs == 1;
   if (plan.pieces == 0)
     plan.why_not = "the reference runs have no wedges of this angle";
-  else if (plan.pieces == 1)
-    plan.why_not = design.alike ? "one reference run has no spread" : "one wedge has no spread";
+  else if (design.alike && plan.pieces == 1)
+    plan.why_not = "one reference run has no spread";
+  else if (!design.alike && plan.pieces < fewest_wedges)
+    plan.why_not = std::to_string(plan.pieces) +
+                   (plan.pieces == 1 ? " wedge of this angle is" : " wedges of this angle are") +
+                   " too few, at least " + std::to_string(fewest_wedges) + " of all reference runs are needed";
   if (!plan.why_not.empty()) return plan;
   const auto n = static_cast<double>(plan.pieces);
   plan.growth = std::sqrt(n / (n - 1));
@@ -52,7 +56,7 @@ Yardstick yardstick(const Observable& o, Measure measure, const Design& design) 
   std::vector<std::size_t> counts;
   for (std::size_t run = 0; run < o.reference.size(); ++run) counts.push_back(o.wedges[run].size());
   const YardstickPlan plan = plan_yardstick(design, counts);
-  if (!plan.why_not.empty()) return {not_known, not_known, not_known};
+  if (!plan.why_not.empty()) return {not_known, not_known, not_known, plan.pieces};
   Draws draws(yardstick_stream);
   std::vector<double> values;
   for (int k = 0; k < repetitions; ++k) {
@@ -66,7 +70,7 @@ Yardstick yardstick(const Observable& o, Measure measure, const Design& design) 
     const double value = distance(measure, o.bins, vessels.pool(), drawn.pool());
     if (std::isfinite(value)) values.push_back(value);
   }
-  if (values.empty()) return {not_known, not_known, not_known};
+  if (values.empty()) return {not_known, not_known, not_known, plan.pieces};
   std::sort(values.begin(), values.end());
   const double median = quantile(values, 0.5), low = quantile(values, 0.025), high = quantile(values, 0.975);
   const bool signed_measure = measure == Measure::difference;
@@ -74,7 +78,7 @@ Yardstick yardstick(const Observable& o, Measure measure, const Design& design) 
   // otherwise.
   const double centre = signed_measure ? median : plan.growth * median, wider = plan.growth * plan.widening;
   return {centre, signed_measure ? centre + wider * (low - median) : plan.growth * low,
-          centre + wider * (high - median)};
+          centre + wider * (high - median), plan.pieces};
 }
 
 }  // namespace wedge
