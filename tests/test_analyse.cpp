@@ -59,6 +59,7 @@ TEST_CASE(
   CHECK(report.moments[0].name == "settle");
   CHECK(report.moments[1].name == "settle_mean");
   CHECK(report.moments[1].average);
+  CHECK(report.moments[1].begin == 0);
   CHECK(report.moments[2].name == "discharge");
   CHECK(report.moments[3].frames.size() == 8);
   // beds.csv was measured from the state itself, by other code: grains and coordination number at the end of a

@@ -12,10 +12,13 @@
 namespace wedge {
 namespace {
 
-/// Adds the average over the frames in from < t <= to, and the last of them, where there are any. A frame that
-/// comes less than `apart` [s] after another shows the same again and is left out of the average.
-void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan span, bool average,
+enum class Start { counts, is_of_the_one_before };
+
+/// Adds the average over the frames in from < t <= to (or from <= t), and the last of them, where there are any. A
+/// frame that comes less than `apart` [s] after another shows the same again and is left out of the average.
+void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan span, Start start, bool average,
               const std::vector<double>& times, double apart) {
+  const double after = start == Start::counts ? span.from - 2e-9 * std::max(1.0, span.from) : span.from;
   Moment all{name + "_mean", true, span.from, span.to, {}};
   std::int64_t last = -1;
   double before = -std::numeric_limits<double>::infinity();
@@ -23,7 +26,7 @@ void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan sp
     const double time =
         times[n] - 1e-9 * std::max(1.0, times[n]);  // of a step that lands on the mark up to round-off
     if (time > span.to) break;
-    if (time <= span.from) {
+    if (time <= after) {
       before = times[n];
       continue;
     }
@@ -60,20 +63,21 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<Tim
   const std::vector<double> times = frame_times(run.folder);
   const double apart = 0.01 * run.scene.output.frames_every;
   std::vector<Moment> moments;
-  double begin = -1e-6;  // a stage of no length still has the frame of its end
+  double begin = 0;
   if (std::filesystem::exists(run.folder.beds())) {
     const std::vector<StageResult> beds = read_bed_table(run.folder.beds());
     for (std::size_t s = 0; s < beds.size() && s < run.scene.stages.size(); ++s) {
       const double end = beds[s].quantities.front().value;
       const bool timed = std::holds_alternative<UntilTime>(run.scene.stages[s].until);
-      add_span(moments, beds[s].stage, {begin, end}, timed, times, apart);
+      // The start of the run is of its first stage, which then has a frame even if it is of no length.
+      add_span(moments, beds[s].stage, {begin, end}, s == 0 ? Start::counts : Start::is_of_the_one_before, timed,
+               times, apart);
       begin = end;
     }
   }
   const std::size_t of_stages = moments.size();
   if (span) {
-    const double from = span->from - 2e-9 * std::max(1.0, span->from);  // a frame at `from` counts
-    add_span(moments, "window", {from, std::min(span->to, times.back())}, true, times, apart);
+    add_span(moments, "window", {span->from, std::min(span->to, times.back())}, Start::counts, true, times, apart);
     if (moments.size() == of_stages)
       throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
                       (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " +
