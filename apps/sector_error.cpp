@@ -22,19 +22,19 @@ struct SectorLaw {
   int power;
   double doubtful;
 };
-// Printed by `python3 apps/study/rule.py`: of beds at rest the rows "core", of the rate "flow".
+// Printed by `python3 apps/study/rule.py`: of beds at rest the rows "core", of the rate "flow4".
 constexpr SectorLaw vessel_laws[] = {
-    {"packing fraction", 4.15, 0.10, 2, 0.02},
-    {"coordination number (distinct neighbours)", -3.64, 0.08, 2, 0.02},
+    {"packing fraction", 4.15, 0.075, 2, 0.02},
+    {"coordination number (distinct neighbours)", -3.68, 0.079, 2, 0.02},
 };
-constexpr SectorLaw rate_law = {"discharge rate of a steady flow", -2.67, 0.96, 2, 0.05};
+constexpr SectorLaw rate_law = {"discharge rate of a steady flow", -208, 31, 4, 0.05};
 // The same command, of piles on a plate of 32 d, in theta alone.
 constexpr SectorLaw pile_laws[] = {
     {"angle of repose (of a plate of 32 d)", -0.105, 0.015, 1, 0.05},
     {"coordination number of the pile (distinct neighbours)", -0.00948, 0.0013, 2, 0.02},
 };
 // Share that stops: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "stops".
-constexpr double stop_rim = 4.5, stop_middle = 3.55, stop_middle_uncertainty = 0.1, stop_width = 0.33;
+constexpr double stop_rim = 4.5, stop_middle = 3.60, stop_middle_uncertainty = 0.09, stop_width = 0.41;
 constexpr double doubtful_share = 0.05;
 
 // theta D0 / d, an arc of 2 d at the rim: the laws of flows are not of thinner ones.

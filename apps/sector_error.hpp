@@ -33,7 +33,7 @@ struct SectorExpectation {
 };
 
 /// Errors of a bed at rest: a (d / (D theta))^2, the share of the vessel's cross section that a core of some arcs
-/// of d takes; of the discharge rate a (d / (D0 theta))^2; of a pile's angle of repose a / theta, of its
+/// of d takes; of the discharge rate a (d / (D0 theta))^4; of a pile's angle of repose a / theta, of its
 /// coordination number a / theta^2. Factors a and the share that stops: apps/study/rule.py, from the runs of
 /// apps/study.
 SectorExpectation expected_errors(const SectorSize& sector);
