@@ -24,17 +24,17 @@ struct SectorLaw {
 };
 // Printed by `python3 apps/study/rule.py`: of beds at rest the rows "core", of the rate "flow4".
 constexpr SectorLaw vessel_laws[] = {
-    {"packing fraction", 4.15, 0.075, 2, 0.02},
+    {"packing fraction", 4.16, 0.074, 2, 0.02},
     {"coordination number (distinct neighbours)", -3.68, 0.079, 2, 0.02},
 };
-constexpr SectorLaw rate_law = {"discharge rate of a steady flow", -208, 31, 4, 0.05};
+constexpr SectorLaw rate_law = {"discharge rate of a steady flow", -201, 28, 4, 0.05};
 // The same command, of piles on a plate of 32 d, in theta alone.
 constexpr SectorLaw pile_laws[] = {
     {"angle of repose (of a plate of 32 d)", -0.105, 0.015, 1, 0.05},
     {"coordination number of the pile (distinct neighbours)", -0.00948, 0.0013, 2, 0.02},
 };
 // Share that stops: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "stops".
-constexpr double stop_rim = 4.5, stop_middle = 3.60, stop_middle_uncertainty = 0.09, stop_width = 0.41;
+constexpr double stop_rim = 4.5, stop_middle = 3.65, stop_middle_uncertainty = 0.10, stop_width = 0.49;
 constexpr double doubtful_share = 0.05;
 
 // theta D0 / d, an arc of 2 d at the rim: the laws of flows are not of thinner ones.

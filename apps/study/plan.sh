@@ -63,24 +63,25 @@ thin() {
   done
 }
 all_thin() {
-  local a n o
+  local a o
   for a in "360 4" "180 4" "120 4" "90 6" "72 6" "60 6" "45 8" "36 8" "30 8" "24 8" "20 8" "15 8"; do
-    n=${a#* } a=${a% *}
-    thin 20 8 8280 "$a" "$n"
-    thin 30 8 27720 "$a" "$n"
+    thin 20 8 8280 "${a% *}" "${a#* }"
+    thin 30 8 27720 "${a% *}" "${a#* }"
   done
-  for o in 8 6 10 12; do
-    for a in "360 2" "180 2" "120 2" "90 3" "72 3" "60 4" "45 4" "36 4" "30 6" "24 6" "20 6" "15 6"; do
+  for o in 8 10 12; do
+    for a in "360 2" "180 2" "120 2" "90 3" "72 3" "60 4" "45 4" "36 4" "30 4" "24 4" "20 4" "15 4"; do
       thin 40 "$o" 65160 "${a% *}" "${a#* }"
     done
+  done
+  for a in "360 2" "180 1" "120 1" "90 3" "72 3" "60 4" "45 4" "36 3" "30 3" "24 3" "20 3" "15 3"; do  # most of which arch
+    thin 40 6 65160 "${a% *}" "${a#* }"
   done
   for a in "360 1" "60 2" "45 2" "30 3"; do thin 60 8 220320 "${a% *}" "${a#* }"; done
 }
 
-
-[ $# -gt 0 ] || set -- pile hopper20 hopper40 sides angle
 angle() { all_thin | sort -s -n -k 1,1 | cut -d " " -f 2-; }  # the first seed of every vessel and angle, then the second, ...
 
+[ $# -gt 0 ] || set -- pile hopper20 hopper40 sides angle
 for name in "$@"; do
   case $name in
     pile | hopper20 | hopper40 | sides | angle | small_hopper | small_pile) "$name" ;;
