@@ -261,7 +261,8 @@ private:
     CLI::App* report =
         command("report", "Draw the figures of analysed runs on one HTML page (needs python3-matplotlib)",
                 [this] { return command_report(report_); });
-    report->add_option("DIR", report_.folders, "folders of runs, or with runs up to three levels below")->required();
+    report->add_option("DIR", report_.folders, "folders of runs, or with runs up to three levels below")
+        ->required();
     report
         ->add_option("-o,--output", report_.output,
                      "page to write (default: report/index.html in DIR; of several, report.html here)")

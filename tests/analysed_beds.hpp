@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/analysis/moment_sums.hpp"
+#include "apps/analysis/results.hpp"
 #include "core/time_scales.hpp"
 #include "tests/catch.hpp"
 #include "tests/laboratory.hpp"
@@ -92,6 +93,25 @@ inline PartSums sums_of(const AnalysedRun& run, const BedFrame& bed, const Part&
 }
 inline PartSums sums_of(const AnalysedRun& run, const BedFrame& bed) {
   return sums_of(run, bed, make_parts(run, {}).front());
+}
+
+/// The integrals of packing and pressures over the volume of the grid.
+inline CellFields over_space(const PartSums& sums) {
+  CellFields all;
+  all.packing = all.prr = all.ptt = all.pzz = all.prz = 0;
+  for (int row = 0; row < sums.grid().rows; ++row) {
+    for (int column = 0; column < sums.grid().columns; ++column) {
+      const CellFields c = cell_fields(sums, column, row);
+      const double volume = sums.grid().volume(column);
+      all.packing += c.packing * volume;
+      if (!(c.grains > 0)) continue;  // no pressure where nothing reaches
+      all.prr += c.prr * volume;
+      all.ptt += c.ptt * volume;
+      all.pzz += c.pzz * volume;
+      all.prz += c.prz * volume;
+    }
+  }
+  return all;
 }
 
 inline double number(const PartSums& sums, const std::string& name) {

@@ -122,11 +122,7 @@ TEST_CASE("Coarse graining of one grain is its Gaussian averaged over azimuth, a
       CHECK(cell_fields(sums, column, row).packing == Approx(volume * mean).epsilon(1e-5));
     }
   }
-  double kept = 0;
-  for (int row = 0; row < sums.grid().rows; ++row)
-    for (int column = 0; column < sums.grid().columns; ++column)
-      kept += cell_fields(sums, column, row).packing * sums.grid().volume(column);
-  CHECK(kept == Approx(volume).epsilon(2e-3));  // cut at four standard deviations
+  CHECK(over_space(sums).packing == Approx(volume).epsilon(2e-3));  // cut at four standard deviations
 }
 
 TEST_CASE("I0e is the mean of exp(x (cos phi - 1)) over phi") {
@@ -204,22 +200,12 @@ TEST_CASE("Three spheres in a ring: forces, loads and the pressure tensor of a k
   CHECK(number(sums, "load") == Approx(10.0 / 3));
   CHECK(number(sums, "cn") == 2);
   CHECK(sums.histogram(0, kind(sums, "load")).total() == 3);
-  double rr = 0, tt = 0, zz = 0, rz = 0;
-  for (int row = 0; row < sums.grid().rows; ++row) {
-    for (int column = 0; column < sums.grid().columns; ++column) {
-      const CellFields c = cell_fields(sums, column, row);
-      if (!(c.grains > 0)) continue;  // no pressure where nothing reaches
-      rr += c.prr * sums.grid().volume(column);
-      tt += c.ptt * sums.grid().volume(column);
-      zz += c.pzz * sums.grid().volume(column);
-      rz += c.prz * sums.grid().volume(column);
-    }
-  }
+  const CellFields whole = over_space(sums);
   // The integral over space is the sum of load times branch, d long, in its directions (Goldhirsch 2010).
-  CHECK(rr == Approx(d * (2 + 3 * 0.25 + 5 * 0.25)).epsilon(2e-3));
-  CHECK(zz == Approx(d * (3 + 5) * 0.75).epsilon(2e-3));
-  CHECK(rz == Approx(d * (3 - 5) * 0.5 * top).epsilon(2e-3));
-  CHECK(tt == Approx(0).margin(1e-9));
+  CHECK(whole.prr == Approx(d * (2 + 3 * 0.25 + 5 * 0.25)).epsilon(2e-3));
+  CHECK(whole.pzz == Approx(d * (3 + 5) * 0.75).epsilon(2e-3));
+  CHECK(whole.prz == Approx(d * (3 - 5) * 0.5 * top).epsilon(2e-3));
+  CHECK(whole.ptt == Approx(0).margin(1e-9));
   const SlicePicture picture = slice_picture(run, bed);
   CHECK(picture.grains.size() == 3);
   REQUIRE(picture.lines.size() == 3);

@@ -38,8 +38,7 @@ Measured number_after(const std::string& text, const std::string& words, std::si
 
 }  // namespace
 
-TEST_CASE(
-    "Expected errors fall with powers of the angle and of the vessel, stops with the arc at the orifice") {
+TEST_CASE("Expected errors fall with powers of the angle and of the vessel, stops with the arc at the orifice") {
   const SectorExpectation wide = expected_errors({pi / 2, 20, 8}), thin = expected_errors({pi / 4, 20, 8}),
                           large = expected_errors({pi / 4, 40, 8});
   REQUIRE(wide.errors.size() == 3);
