@@ -2,7 +2,7 @@
 # demo.sh: builds wedge and runs its main job: a hopper, as the full vessel and as a sector of 90 degrees.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-. apps/install_needed.sh
+. apps/setup/install_needed.sh
 
 install_needed
 configure build/release -DCMAKE_BUILD_TYPE=Release -DWEDGE_TESTS=OFF -DWEDGE_PERF=OFF

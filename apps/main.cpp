@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/command_line.hpp"
-#include "apps/commands.hpp"
-#include "apps/threads.hpp"
+#include "apps/commands/command_line.hpp"
+#include "apps/commands/commands.hpp"
+#include "apps/run/threads.hpp"
 #include "core/require.hpp"
 
 namespace {

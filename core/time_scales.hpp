@@ -86,7 +86,7 @@ inline double largest_damping(const Scene& scene) {
 }
 
 /// By how much a step must be shorter than that of a weakly damped scene: the damping ratio over 0.3, at least 1.
-/// Beds with a ratio of 0.6 heat at half the step at which those with 0.3 do (perf/speed_error.md).
+/// Beds with a ratio of 0.6 heat at half the step at which those with 0.3 do (perf/speed_error/speed_error.md).
 inline double damping_shortens(const Scene& scene) { return std::max(1.0, largest_damping(scene) / 0.3); }
 
 /// The part of the Rayleigh time that "auto" takes.

@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "kernels/move.hpp"
+#include "kernels/passes/move.hpp"
 
 namespace wedge {
 

@@ -5,8 +5,8 @@
 
 #include "core/scene.hpp"
 #include "core/state.hpp"
-#include "kernels/friction.hpp"
-#include "kernels/reactions.hpp"
+#include "kernels/laws/friction.hpp"
+#include "kernels/passes/reactions.hpp"
 
 namespace wedge {
 

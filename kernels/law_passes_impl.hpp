@@ -5,12 +5,12 @@
 #include <functional>
 #include <variant>
 
-#include "kernels/contact_forces.hpp"
-#include "kernels/count_contacts.hpp"
-#include "kernels/evaluate_contacts.hpp"
-#include "kernels/evaluate_walls.hpp"
 #include "kernels/law_passes.hpp"
-#include "kernels/total_coulomb.hpp"
+#include "kernels/laws/total_coulomb.hpp"
+#include "kernels/passes/contact_forces.hpp"
+#include "kernels/passes/count_contacts.hpp"
+#include "kernels/passes/evaluate_contacts.hpp"
+#include "kernels/passes/evaluate_walls.hpp"
 
 namespace wedge {
 

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "core/parallel.hpp"
-#include "kernels/evaluate_contacts.hpp"
-#include "kernels/hertz_mindlin.hpp"
-#include "kernels/linear_law.hpp"
-#include "kernels/mindlin_deresiewicz.hpp"
-#include "kernels/total_coulomb.hpp"
+#include "kernels/laws/hertz_mindlin.hpp"
+#include "kernels/laws/linear_law.hpp"
+#include "kernels/laws/mindlin_deresiewicz.hpp"
+#include "kernels/laws/total_coulomb.hpp"
+#include "kernels/passes/evaluate_contacts.hpp"
 
 namespace wedge {
 

@@ -8,8 +8,8 @@
 #include "core/stopwatch.hpp"
 #include "kernels/body_passes.hpp"
 #include "kernels/law_passes.hpp"
-#include "kernels/neighbours.hpp"
-#include "kernels/reactions.hpp"
+#include "kernels/neighbours/neighbours.hpp"
+#include "kernels/passes/reactions.hpp"
 
 namespace wedge {
 

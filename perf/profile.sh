@@ -4,7 +4,7 @@
 # a build for x86-64-v3: valgrind 3.19 does not know AVX-512). Without options: 8000 grains of the settled column.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-. apps/install_needed.sh
+. apps/setup/install_needed.sh
 [ $# -gt 0 ] || set -- --particles 8000 --settle 0.3 --steps 200
 build() {
   configure "$1" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DWEDGE_TESTS=OFF -DWEDGE_PERF=ON "${@:2}"

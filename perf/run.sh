@@ -6,7 +6,7 @@
 # libbenchmark-dev).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-. apps/install_needed.sh
+. apps/setup/install_needed.sh
 grains=${1:-32000} rounds=${2:-5} steps=400
 case "$grains$rounds" in *[!0-9]*) echo "usage: bash perf/run.sh [GRAINS [ROUNDS]]" >&2; exit 2 ;; esac
 
@@ -84,4 +84,4 @@ for size in 2000 32000 120000; do settle $size; done  # the largest takes some m
 medians limits build/release/perf/bench_limits
 medians passes build/release/perf/bench_passes "$folder"
 echo
-awk -f perf/bound.awk "$folder/limits.json" "$folder/passes.json"
+awk -f perf/bench/bound.awk "$folder/limits.json" "$folder/passes.json"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh: builds wedge with assertions and warnings as errors and runs every test, and with them perf/smoke.sh, which
+# run.sh: builds wedge with assertions and warnings as errors and runs every test, and with them perf/smoke/smoke.sh, which
 # fails when the step has become slower or computes something else. Other ways to run them:
 #   --clang           built with clang
 #   --asan            under the address and undefined-behaviour sanitizers
@@ -9,7 +9,7 @@
 #   --fuzz [SECONDS]  no tests: each reader under libFuzzer for so long (600 s), one after the other
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-. apps/install_needed.sh
+. apps/setup/install_needed.sh
 
 usage() {
   echo "usage: bash tests/run.sh [--clang | --asan | --tsan | --nightly | --validate | --fuzz [SECONDS]]" >&2
@@ -56,7 +56,7 @@ fuzz_all() {
     (cd "$folder" && export TMPDIR="$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)" &&
       # libhdf5 believes lengths in damaged files; it takes a refusal of memory well.
       export ASAN_OPTIONS=allocator_may_return_null=1 &&
-      export LSAN_OPTIONS=suppressions=$OLDPWD/tests/leaks.supp:print_suppressions=0 &&
+      export LSAN_OPTIONS=suppressions=$OLDPWD/tests/support/leaks.supp:print_suppressions=0 &&
       ../../tests/fuzz_$reader corpus ../../../../tests/fuzz/seeds/$reader ../../../../tests/fuzz/finds/$reader \
         "${go_on[@]}" -dict=../../../../tests/fuzz/${reader%_bytes}.dict -artifact_prefix=finds/ -max_total_time="$seconds" \
         -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=1000000 -max_len=65536 -print_final_stats=1 >log 2>&1 || outcome=1
@@ -97,9 +97,9 @@ write_table() {
 validate() {
   local rows outcome=0 table
   rows=$(mktemp -d)
-  export WEDGE_LADDER="$rows/rows"
+  export WEDGE_VALIDATION_ROWS="$rows/rows"
   ctest --test-dir "$1" --output-on-failure -j 2 -L 'unit|validate|nightly' -E kill || outcome=$?
-  for table in rungs orders hard; do write_table $table "$WEDGE_LADDER" || outcome=1; done
+  for table in "known answers" orders "hard cases"; do write_table "$table" "$WEDGE_VALIDATION_ROWS" || outcome=1; done
   rm -r "$rows"
   echo "The tables of tests/README.md are those of this run."
   return $outcome
@@ -112,7 +112,7 @@ case "$mode" in
   "" | --nightly | --validate)
     needed=()
     command -v g++ >/dev/null || needed+=(g++)
-    [ -n "$mode" ] || needed+=(valgrind binutils python3-matplotlib python3-numpy)  # of perf/smoke.sh, wedge report
+    [ -n "$mode" ] || needed+=(valgrind binutils python3-matplotlib python3-numpy)  # of perf/smoke/smoke.sh, wedge report
     install_needed "${needed[@]}"
     build build/tests g++ -DWEDGE_WARNINGS_AS_ERRORS=ON
     [ "$mode" != --validate ] || { validate build/tests; exit; }
@@ -129,7 +129,7 @@ case "$mode" in
     build build/tests-asan clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g" \
       -DWEDGE_SANITIZE=address,undefined -DWEDGE_NATIVE=OFF -DWEDGE_PERF=OFF
     export ASAN_OPTIONS=detect_stack_use_after_return=1
-    export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
+    export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks.supp:print_suppressions=0
     exec ctest --test-dir build/tests-asan --output-on-failure -j 2 -LE nightly ;;
   --tsan)
     install_needed clang libomp-dev llvm

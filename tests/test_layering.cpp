@@ -1,11 +1,12 @@
 // test_layering.cpp: the direction of dependency between the folders, read from the sources themselves.
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.hpp"
-#include "tests/catch.hpp"
+#include "io/files/atomic_file.hpp"
+#include "tests/support/catch.hpp"
 
 namespace {
 
@@ -26,13 +27,37 @@ std::vector<Source> sources(const std::string& folder) {
   return found;
 }
 
-/// Files of `folder` that include a file of one of the folders `above`.
+/// Files of `folder` that include a file below one of the folders `above`, an expression.
 std::vector<std::string> trespassers(const std::string& folder, const std::string& above) {
   const std::regex include("(^|\\n)[ \\t]*#[ \\t]*include[ \\t]*[\"<](\\.\\./)*(" + above + ")/");
   std::vector<std::string> found;
   for (const Source& source : sources(folder))
     if (std::regex_search(source.text, include)) found.push_back(source.path);
   return found;
+}
+
+/// Folders within `folder` that hold C++ files.
+std::set<std::string> rooms(const std::string& folder) {
+  std::set<std::string> found;
+  for (const Source& source : sources(folder)) {
+    const std::string rest = source.path.substr(folder.size() + 1);
+    if (rest.find('/') != std::string::npos) found.insert(rest.substr(0, rest.find('/')));
+  }
+  return found;
+}
+
+/// Checks that the rooms of `folder` are these, from the lowest floor to the highest, and that none of them
+/// includes a file of one above it.
+void check_floors(const std::string& folder, const std::vector<std::string>& from_below) {
+  INFO(folder);
+  CHECK(rooms(folder) == std::set<std::string>(from_below.begin(), from_below.end()));
+  for (std::size_t floor = 0; floor + 1 < from_below.size(); ++floor) {
+    std::string above;
+    for (std::size_t k = floor + 1; k < from_below.size(); ++k)
+      above += (above.empty() ? "" : "|") + folder + "/" + from_below[k];
+    INFO(from_below[floor]);
+    CHECK(trespassers(folder + "/" + from_below[floor], above) == std::vector<std::string>{});
+  }
 }
 
 using Paths = std::vector<std::string>;
@@ -45,6 +70,11 @@ TEST_CASE("No folder includes one above it") {
   CHECK(trespassers("io", "kernels|apps|tests|perf") == Paths{});
   CHECK(trespassers("apps", "tests|perf") == Paths{});
   CHECK_FALSE(trespassers("apps", "io").empty());  // the search does find what is there
+}
+
+TEST_CASE("No room includes one on a floor above it") {
+  check_floors("io", {"files", "tables", "scene"});
+  check_floors("apps", {"results", "measure", "setup", "run", "analysis", "comparison", "commands"});
 }
 
 TEST_CASE("Only core/parallel.hpp knows OpenMP") {

@@ -11,8 +11,8 @@
 #include "apps/analysis/results.hpp"
 #include "core/parallel.hpp"
 #include "core/time_scales.hpp"
-#include "io/atomic_file.hpp"
-#include "io/scene_diagnostics.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/scene/diagnostics.hpp"
 
 namespace wedge {
 namespace {

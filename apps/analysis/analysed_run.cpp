@@ -5,12 +5,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "apps/setup.hpp"
+#include "apps/setup/setup.hpp"
 #include "core/random.hpp"
 #include "core/time_scales.hpp"
-#include "io/csv.hpp"
-#include "io/frame.hpp"
-#include "io/scene_file.hpp"
+#include "io/files/frame.hpp"
+#include "io/scene/scene_file.hpp"
+#include "io/tables/csv.hpp"
 
 namespace wedge {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/run_folder.hpp"
+#include "apps/results/run_folder.hpp"
 #include "core/scene.hpp"
 #include "core/state.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "apps/walls_at.hpp"
+#include "apps/run/walls_at.hpp"
 #include "core/parallel.hpp"
 #include "core/time_scales.hpp"
 #include "kernels/fill.hpp"

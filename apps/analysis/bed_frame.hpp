@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/analysis/analysed_run.hpp"
-#include "io/frame.hpp"
+#include "io/files/frame.hpp"
 
 namespace wedge {
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <string_view>
 
-#include "apps/bed_table.hpp"
+#include "apps/run/bed_table.hpp"
 #include "core/random.hpp"
 #include "core/time_scales.hpp"
 #include "core/vec3.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/tables/csv.hpp"
 
 namespace wedge {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/flank.hpp"
+#include "apps/measure/flank.hpp"
 #include "core/time_scales.hpp"
 
 namespace wedge {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "apps/bed_table.hpp"
-#include "io/csv.hpp"
-#include "io/frame.hpp"
+#include "apps/run/bed_table.hpp"
+#include "io/files/frame.hpp"
+#include "io/tables/csv.hpp"
 
 namespace wedge {
 namespace {

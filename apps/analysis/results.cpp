@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "io/csv.hpp"
+#include "io/tables/csv.hpp"
 
 namespace wedge {
 namespace {

@@ -6,11 +6,11 @@
 #include <variant>
 
 #include "apps/analysis/results.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv.hpp"
-#include "io/json.hpp"
-#include "io/provenance.hpp"
-#include "io/scene_names.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/tables/provenance.hpp"
+#include "io/scene/names.hpp"
+#include "io/tables/csv.hpp"
+#include "io/tables/json.hpp"
 
 namespace wedge {
 namespace {

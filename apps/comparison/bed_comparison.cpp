@@ -9,11 +9,11 @@
 #include <map>
 #include <optional>
 
-#include "apps/bed_table.hpp"
 #include "apps/comparison/numbers_shown.hpp"
-#include "apps/run_folder.hpp"
-#include "apps/text_table.hpp"
-#include "io/scene_diagnostics.hpp"
+#include "apps/results/run_folder.hpp"
+#include "apps/results/text_table.hpp"
+#include "apps/run/bed_table.hpp"
+#include "io/scene/diagnostics.hpp"
 
 namespace wedge {
 namespace {

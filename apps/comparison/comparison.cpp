@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/csv.hpp"
+#include "io/tables/csv.hpp"
 
 namespace wedge {
 namespace {

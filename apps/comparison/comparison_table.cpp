@@ -6,7 +6,7 @@
 #include <set>
 
 #include "apps/comparison/numbers_shown.hpp"
-#include "apps/text_table.hpp"
+#include "apps/results/text_table.hpp"
 
 namespace wedge {
 namespace {

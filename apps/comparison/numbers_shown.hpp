@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "io/scene_diagnostics.hpp"
+#include "io/scene/diagnostics.hpp"
 
 namespace wedge {
 

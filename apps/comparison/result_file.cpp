@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/require.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 
 namespace wedge {
 namespace {

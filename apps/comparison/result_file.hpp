@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/csv.hpp"
+#include "io/tables/csv.hpp"
 
 namespace wedge {
 

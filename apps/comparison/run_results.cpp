@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "apps/comparison/result_file.hpp"
-#include "apps/run_folder.hpp"
+#include "apps/results/run_folder.hpp"
 #include "core/grain_sizes.hpp"
-#include "io/scene_diagnostics.hpp"
-#include "io/scene_file.hpp"
+#include "io/scene/diagnostics.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace wedge {
 namespace {

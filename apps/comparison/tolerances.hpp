@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/comparison/comparison.hpp"
-#include "io/tolerance_file.hpp"
+#include "io/scene/tolerance_file.hpp"
 
 namespace wedge {
 

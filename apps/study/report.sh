@@ -4,7 +4,7 @@
 # sectors, and builds the page from these: build/study/small/report.html.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-. apps/install_needed.sh
+. apps/setup/install_needed.sh
 
 [ $# -eq 0 ] || [ "$*" = --small ] || { echo "usage: bash apps/study/report.sh [--small]" >&2; exit 2; }
 install_needed python3-matplotlib python3-numpy

@@ -6,11 +6,11 @@
 
 #include "core/checksum.hpp"
 #include "core/require.hpp"
-#include "io/atomic_file.hpp"
-#include "io/checkpoint.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/checkpoint.hpp"
 #include "tests/fuzz/fuzz_readers.hpp"
-#include "tests/sample_state.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/support/sample_state.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace wedge::fuzz {
 namespace {

@@ -6,15 +6,15 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "apps/bed_table.hpp"
+#include "apps/run/bed_table.hpp"
 #include "core/require.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv.hpp"
-#include "io/json.hpp"
-#include "io/series.hpp"
-#include "io/state_csv.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/tables/csv.hpp"
+#include "io/tables/json.hpp"
+#include "io/tables/series.hpp"
+#include "io/tables/state_csv.hpp"
 #include "tests/fuzz/fuzz_readers.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace wedge::fuzz {
 namespace {

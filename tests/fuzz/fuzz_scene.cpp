@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "core/require.hpp"
-#include "io/scene_file.hpp"
+#include "io/scene/scene_file.hpp"
 #include "tests/fuzz/fuzz_readers.hpp"
 
 namespace wedge::fuzz {

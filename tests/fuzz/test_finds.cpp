@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/atomic_file.hpp"
-#include "tests/catch.hpp"
+#include "io/files/atomic_file.hpp"
 #include "tests/fuzz/fuzz_readers.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace wedge;
 
