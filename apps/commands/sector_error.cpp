@@ -22,7 +22,7 @@ struct SectorLaw {
   int power;
   double doubtful;
 };
-// Printed by `python3 apps/study/rule.py`: of beds at rest the rows "core", of the rate "flow4".
+// Printed by `python3 apps/study/rule.py`: of beds at rest the rows "axis zone", of the rate "flow4".
 constexpr SectorLaw vessel_laws[] = {
     {"packing fraction", 4.16, 0.074, 2, 0.02},
     {"coordination number (distinct neighbours)", -3.68, 0.079, 2, 0.02},

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# compare.sh RUNS COMPARISONS: compares the runs in the folder RUNS (such as runs/ beside this file), sectors with the full vessels
-# of their set, and writes a table for each pair of ensembles into COMPARISONS. WEDGE: the program.
+# compare.sh RUNS COMPARISONS: compares the sectors in the folder RUNS with the full vessels of their set, and writes a
+# table for each pair of ensembles into COMPARISONS. WEDGE: the program.
 set -euo pipefail
 study=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 wedge=${WEDGE:-$study/../../build/release/wedge}

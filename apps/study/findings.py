@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""findings.py COMPARISONS: the tables of README.md, "The paper, measured", from what compare.sh wrote: sectors against the full
-vessel. A cell is the difference in per cent of the full vessel (or the distance in per cent of its scale) with its 95 % interval;
-in bold where it is beyond the full vessel's own spread at as many grains. Scalars here are never negative, so no interval of their
-differences reaches below -100 %."""
+"""findings.py COMPARISONS: prints the tables "Findings" of README.md from what compare.sh wrote."""
 import csv
 import math
 import pathlib
@@ -19,7 +16,7 @@ HOPPER = [  # heading, moment, kind, quantity, region, measure
     ("discharge rate", "flow_mean", "scalar", "discharge_rate", "all", "difference"),
     ("CN distribution, 0.7 s: KS", "open", "distribution", "cn", "all", "ks"),
     ("CN distribution, flow: KS", "flow_mean", "distribution", "cn", "all", "ks"),
-    ("the same outside the core", "flow_mean", "distribution", "cn", "rest", "ks"),
+    ("the same outside the axis zone", "flow_mean", "distribution", "cn", "rest", "ks"),
     ("v_r distribution, flow: KS", "flow_mean", "distribution", "vr", "all", "ks"),
     ("v_t distribution, flow: KS", "flow_mean", "distribution", "vt", "all", "ks"),
     ("v_z distribution, flow: KS", "flow_mean", "distribution", "vz", "all", "ks"),
@@ -40,21 +37,27 @@ PILE = [
     ("map of v_z, 0.14 s: rms", "collapse", "map", "vz", "all", "rms"),
 ]
 SIDES = [row for row in HOPPER if row[0] in (
-    "packing fraction, at rest", "CN of distinct neighbours, at rest", "mean contact force, at rest", "mass within d of the axis, at rest",
-    "discharge rate", "CN distribution, flow: KS", "the same outside the core", "v_z distribution, flow: KS", "map of v_z, flow: rms")]
-SLOT = [row for row in SIDES if row[3] != "discharge_rate"]  # that of a slot, by its own opening, is another quantity
+    "packing fraction, at rest", "CN of distinct neighbours, at rest", "mean contact force, at rest",
+    "mass within d of the axis, at rest", "discharge rate", "CN distribution, flow: KS",
+    "the same outside the axis zone", "v_z distribution, flow: KS", "map of v_z, flow: rms")]
+SLOT = [row for row in SIDES if row[3] != "discharge_rate"]  # that of a slot is of another opening
+VESSELS = (
+    ("hopper20", "Hopper, D = 20 d", HOPPER),
+    ("hopper40", "Hopper, D = 40 d", HOPPER),
+    ("pile", "Sandpile", PILE))
+ANGLES = (90, 60, 45, 30)
+BOUNDS = ("images", "pin", "line", "frictionless", "rigid")
 
 
 def rows_of(file):
-    with open(file, newline="") as text:
-        return {tuple(r[k] for k in ("moment", "kind", "quantity", "region", "measure")): r for r in csv.DictReader(text)}
+    with open(file, newline="", encoding="utf-8") as text:
+        return {tuple(row[k] for k in ("moment", "kind", "quantity", "region", "measure")): row
+                for row in csv.DictReader(text)}
 
 
 def number(text):
     value = float(text)
-    if abs(value) >= 99.95:
-        return f"{value:.0f}"
-    return f"{value:.1f}"
+    return f"{value:.0f}" if abs(value) >= 99.95 else f"{value:.1f}"
 
 
 def scale_of(row):
@@ -74,39 +77,48 @@ def cell(row):
         return "-"
     value, low, high = (scale * float(row[k]) for k in ("value", "low", "high"))
     if row["measure"] == "difference":
-        low = max(low, -100)
-    text = f"{number(value)} [{number(low)}, {number(high)}]" if math.isfinite(low) and math.isfinite(high) else number(value)
+        low = max(low, -100)  # scalars here are never negative
+    known = math.isfinite(low) and math.isfinite(high)
+    text = f"{number(value)} [{number(low)}, {number(high)}]" if known else number(value)
     return f"**{text}**" if row["beyond"] == "1" else text
 
 
-def table(folder, columns, quantities):
-    tables = {heading: rows_of(folder / (name + ".csv")) for heading, name in columns if (folder / (name + ".csv")).exists()}
+def arched(rows):
+    row = rows.get(("flow_mean", "scalar", "arched", "all", "difference"))
+    if row is None:
+        return "-"
+    runs = int(row["compared_runs"])
+    return f"{float(row['compared']) * runs:.0f} of {runs}"
+
+
+def print_row(heading, cells):
+    if set(cells) != {"-"}:
+        print(f"| {heading} | " + " | ".join(cells) + " |")
+
+
+def print_table(folder, columns, quantities):
+    """A table of the comparisons, (heading, name of the file), that there are."""
+    files = {heading: folder / f"{name}.csv" for heading, name in columns}
+    tables = {heading: rows_of(file) for heading, file in files.items() if file.exists()}
     if not tables:
         return
     print("| [%] | " + " | ".join(tables) + " |\n|---" + "|---" * len(tables) + "|")
-    for heading, moment, kind, quantity, region, measure in quantities:
-        cells = [cell(rows.get((moment, kind, quantity, region, measure))) for rows in tables.values()]
-        if set(cells) != {"-"}:
-            print(f"| {heading} | " + " | ".join(cells) + " |")
-    arched = [rows.get(("flow_mean", "scalar", "arched", "all", "difference")) for rows in tables.values()]
-    if any(arched):
-        print("| arched | " + " | ".join(
-            f"{float(r['compared']) * int(r['compared_runs']):.0f} of {r['compared_runs']}" if r else "-" for r in arched) + " |")
+    for heading, *row in quantities:
+        print_row(heading, [cell(rows.get(tuple(row))) for rows in tables.values()])
+    print_row("arched", [arched(rows) for rows in tables.values()])
     print()
 
 
 def main(comparisons):
     folder = pathlib.Path(comparisons)
-    angles = (90, 60, 45, 30)
-    for name, title, quantities in (("hopper20", "Hopper, D = 20 d", HOPPER), ("hopper40", "Hopper, D = 40 d", HOPPER),
-                                    ("pile", "Sandpile", PILE)):
+    for name, title, quantities in VESSELS:
         print(f"**{title}**\n")
-        table(folder, [(f"{a}°", f"{name}_a{a}") for a in angles], quantities)
+        print_table(folder, [(f"{angle}°", f"{name}_a{angle}") for angle in ANGLES], quantities)
     print("**What bounds a sector** (hopper, D = 20 d)\n")
     for angle in (90, 45):
-        table(folder, [(f"{angle}°, clamp", f"hopper20_a{angle}")] + [
-            (f"{angle}°, {bound}", f"sides_a{angle}_{bound}") for bound in ("images", "pin", "line", "frictionless", "rigid")], SIDES)
-    table(folder, [("slot", "sides_slot")], SLOT)
+        print_table(folder, [(f"{angle}°, clamp", f"hopper20_a{angle}")] + [
+            (f"{angle}°, {bound}", f"sides_a{angle}_{bound}") for bound in BOUNDS], SIDES)
+    print_table(folder, [("slot", "sides_slot")], SLOT)
 
 
 if __name__ == "__main__":

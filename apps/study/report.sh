@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# report.sh [--small]: builds wedge and the page of the study from the runs that are kept in runs/ beside this file:
-# build/study/report.html. With --small it makes two seeds of a small hopper and a small sandpile first, full and as
-# sectors, and builds the page from these: build/study/small/report.html.
+# report.sh [--small]: builds wedge, unpacks the runs kept in data/ beside this file to build/study/runs, and makes the
+# page of the study from them: build/study/report.html. With --small it makes two seeds of a small hopper and a small
+# sandpile, full and as sectors, and the page from these: build/study/small/report.html.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . apps/setup/install_needed.sh
@@ -17,8 +17,9 @@ if [ $# -eq 1 ]; then
   mkdir -p $out
   RUNS=$PWD/$runs bash apps/study/study.sh $out/work small_pile small_hopper
 else
-  out=build/study runs=apps/study/runs
-  mkdir -p $out
+  out=build/study runs=build/study/runs
+  python3 apps/study/kept.py unpack $runs
 fi
 bash apps/study/compare.sh $runs $out/comparisons
-"$WEDGE" report $runs --compare $out/comparisons/*.csv -o $out/report.html --title "Sectors against the full vessel (made by: bash apps/study/report.sh${*:+ $*})"
+"$WEDGE" report $runs --compare $out/comparisons/*.csv -o $out/report.html \
+  --title "Sectors against the full vessel (made by: bash apps/study/report.sh${*:+ $*})"

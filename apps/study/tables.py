@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""tables.py [COMPARISONS] [--check]: puts the tables that rule.py (of runs/) and, of COMPARISONS, findings.py print into README.md
-beside this file, between its markers. --check: writes nothing, exits with 1 where README.md says something else. Needs numpy."""
+"""tables.py [COMPARISONS] [--check]: puts the tables of rule.py and findings.py into README.md, or checks them."""
 import contextlib
 import io
 import pathlib
@@ -27,24 +26,27 @@ def between(text, name, content):
     return text[:found.start()] + content + text[found.end():]
 
 
-def main():
-    arguments = [a for a in sys.argv[1:] if a != "--check"]
-    old = README.read_text()
-    new = between(old, "rule", printed(rule.main, rule.RUNS))
-    if arguments:
-        new = between(new, "findings", printed(findings.main, arguments[0]))
+def differences(old, new):
+    """The lines of new that old lacks."""
+    known = set(old.splitlines())
+    return [line for line in new.splitlines() if line not in known]
+
+
+def main(arguments):
+    comparisons = [argument for argument in arguments if argument != "--check"]
+    old = README.read_text(encoding="utf-8")
+    new = between(old, "rule", printed(rule.main))
+    if comparisons:
+        new = between(new, "findings", printed(findings.main, comparisons[0]))
     if new == old:
-        print(f"{README.name}: the tables are those of the runs")
-    elif "--check" in sys.argv:
-        lines = set(old.splitlines())
-        for line in new.splitlines():
-            if line not in lines:
-                print("not in README.md:", line)
-        sys.exit(f"error: {README.name} has other tables than the runs; refresh them: python3 apps/study/tables.py")
+        print(f"{README.name}: the tables are those of the data")
+    elif "--check" in arguments:
+        print("\n".join(f"not in {README.name}: {line}" for line in differences(old, new)))
+        sys.exit(f"error: {README.name} has other tables than the data; refresh them: python3 apps/study/tables.py")
     else:
-        README.write_text(new)
+        README.write_text(new, encoding="utf-8")
         print(f"{README.name}: refreshed")
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
