@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# plan.sh [SET...]: the runs of the study, one a line: SET/RUN, scene, then what `wedge run --set` sets, all separated
-# by blanks. Sets: pile hopper20 hopper40 sides angle, which make the study; without a set: all of these. And small_hopper,
-# small_pile, which take minutes.
+# plan.sh [SET...]: prints the runs of these sets, one a line: SET/RUN, scene, then what `wedge run --set` sets, all
+# separated by blanks. The study is the sets pile hopper20 hopper40 sides angle: those without a SET. The sets
+# small_hopper and small_pile take minutes.
 set -euo pipefail
 
 # vessel WIDTH ORIFICE COUNT: settings of a hopper WIDTH d wide with an orifice of ORIFICE d and COUNT grains (of the
@@ -15,7 +15,7 @@ vessel() {
     printf "particles.region={r=[0,\"%g_d\"],z=[0,\"%g_d\"]}", r, h }'
 }
 
-# seeds FIRST LAST ANGLE...: every angle for each seed, seeds in turn.
+# Every angle for each seed, seeds in turn.
 pile() {
   for seed in 1 2 3 4 5 6 7 8; do for angle in 360 90 60 45 30; do
     echo "pile/a${angle}_s$seed pile domain.angle=$angle particles.seed=$seed"
@@ -47,10 +47,12 @@ sides() {  # what bounds a sector, in the vessel of set hopper20
   for seed in 1 2 3 4; do
     for angle in 90 45; do
       for sides in rigid frictionless; do
-        echo "sides/a${angle}_${sides}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.sides=$sides particles.seed=$seed"
+        echo "sides/a${angle}_${sides}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.sides=$sides" \
+          "particles.seed=$seed"
       done
       for axis in images pin line; do
-        echo "sides/a${angle}_${axis}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.axis=$axis particles.seed=$seed"
+        echo "sides/a${angle}_${axis}_s$seed hopper $(vessel 20 8 31008) domain.angle=$angle domain.axis=$axis" \
+          "particles.seed=$seed"
       done
     done
     echo "sides/slot_s$seed slot particles.seed=$seed"
@@ -73,13 +75,15 @@ all_thin() {
       thin 40 "$o" 65160 "${a% *}" "${a#* }"
     done
   done
-  for a in "360 2" "180 1" "120 1" "90 3" "72 3" "60 4" "45 4" "36 3" "30 3" "24 3" "20 3" "15 3"; do  # most of which arch
+  # Most of these arch.
+  for a in "360 2" "180 1" "120 1" "90 3" "72 3" "60 4" "45 4" "36 3" "30 3" "24 3" "20 3" "15 3"; do
     thin 40 6 65160 "${a% *}" "${a#* }"
   done
   for a in "360 1" "60 2" "45 2" "30 3"; do thin 60 8 220320 "${a% *}" "${a#* }"; done
 }
 
-angle() { all_thin | sort -s -n -k 1,1 | cut -d " " -f 2-; }  # the first seed of every vessel and angle, then the second, ...
+# The first seed of every vessel and angle, then the second, ...
+angle() { all_thin | sort -s -n -k 1,1 | cut -d " " -f 2-; }
 
 [ $# -gt 0 ] || set -- pile hopper20 hopper40 sides angle
 for name in "$@"; do
