@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""findings.py COMPARISONS: prints the tables "Findings" of README.md from what compare.sh wrote."""
+"""findings.py COMPARISONS: prints the tables of comparisons in README.md from what compare.sh wrote."""
 import csv
 import math
 import pathlib

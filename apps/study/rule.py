@@ -283,7 +283,7 @@ def print_law_of_stops(stops):
     best, (low, high), fits = best_rim(*np.array(sectors).T)
     middle, error, width, loss = fits[best]
     print(f"\nHalf of the sectors stop at x = theta (D0 / d - {best:g}) = {middle:.2f} ± {error:.2f}; "
-          f"share 1 / (1 + exp((x - {middle:.2f}) / {width:.2f})); -2 log L = {loss:.1f} over {len(sectors)} runs "
+          f"share 1 / (1 + exp((x - {middle:.2f}) / {width:.2f}));\n-2 log L = {loss:.1f} over {len(sectors)} runs "
           f"(with D0 / d alone {fits[0][-1]:.1f}; {low:g} to {high:g} in place of {best:g} are within 95 %)")
 
 
@@ -309,7 +309,7 @@ def print_piles(piles):
         print("; ".join(f"{angle_of(round(2 * math.pi / row.theta))} {in_per_cent(row)}"
                         for row in sorted(rows, key=lambda row: -row.theta)))
         print(f"\nerror = a / theta{'' if power == 1 else '^2'}: a = {a:.3g} ± {error:.2g}, chi2 / dof {chi2:.2f}")
-    print("\nAngle of repose of wedges cut from full piles, against these: " + "; ".join(
+    print("\nAngle of repose of wedges cut from full piles, against these:\n" + "; ".join(
         f"{angle_of(n)} {np.mean(v):+.1f} ± {np.std(v, ddof=1) / math.sqrt(len(v)):.1f}"
         for n, v in sorted(flank_errors(piles).items()) if len(v) > 1))
 
