@@ -7,6 +7,6 @@ for python in ${WEDGE_PYTHON:-python3 /usr/bin/python3} ""; do
   [ -n "$python" ] || { echo "no Python with numpy: apt-get install python3-numpy"; exit 77; }
   ! "$python" -B -c "import numpy" 2>/dev/null || break
 done
-"$python" -B "$top/tests/test_kept.py"
-"$python" -B "$top/tests/test_rule.py"
+"$python" -B "$top/tests/apps/test_kept.py"
+"$python" -B "$top/tests/apps/test_rule.py"
 "$python" -B "$top/apps/study/tables.py" --check

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "apps/sector_error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/scene_file.hpp"
-#include "tests/catch.hpp"
-#include "tests/laboratory.hpp"
+#include "apps/commands/sector_error.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/scene/scene_file.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/experiment.hpp"
 
 using namespace wedge;
 using namespace wedge::test;

@@ -6,7 +6,7 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "apps" / "study"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "apps" / "study"))
 import kept  # noqa: E402
 
 SCALARS = "moment,part,quantity,unit,value,low,high\n"
