@@ -111,7 +111,7 @@ struct Source {
 struct UntilTime {
   double duration = 0;
 };                      // s, since the stage began
-struct UntilAtRest {};  // see README.md, "At rest"
+struct UntilAtRest {};  // see apps/scenes/README.md, "At rest"
 struct UntilEmpty {};   // no grain is left
 struct UntilDischarged {
   std::int64_t count = 0;

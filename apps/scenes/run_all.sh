@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # run_all.sh FOLDER [THREADS]: runs the hopper and the sandpile, full and as sectors, into FOLDER and prints the tables
-# of README.md, "Runs really made". Runs that are finished are not run again, interrupted ones go on. WEDGE: the program.
+# of apps/scenes/README.md, "Runs really made". Finished runs are not repeated, interrupted ones are resumed.
+# WEDGE: the program.
 set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: bash apps/scenes/run_all.sh FOLDER [THREADS]" >&2; exit 2; }
 scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
