@@ -73,9 +73,9 @@ TEST_CASE("restitution of the default law depends on c_n alone", "[impact]") {
   struct Row {
     double damping, pulls, clipped;
   };  // PHYSICS section 1
-  const char* source = "own integration of the normal law";
+  const char* source = "separate integration of the normal law";
   KnownAnswer pulls("03a", "restitution for c_n 0.05 ... 0.5, two speeds", source, Measure::absolute);
-  KnownAnswer clipped("03b", "the same with `tension = \"none\"`", source, Measure::absolute);
+  KnownAnswer clipped("03b", "restitution with `tension = \"none\"`", source, Measure::absolute);
   for (const Row& row : {Row{0.05, 0.8417, 0.8468}, Row{0.1, 0.7074, 0.7247}, Row{0.2, 0.4939, 0.5454},
                          Row{0.3, 0.3352, 0.4231}, Row{0.5, 0.1279, 0.2732}}) {
     for (const double speed : {0.1, 1.0}) {
@@ -90,8 +90,8 @@ TEST_CASE("restitution of the default law depends on c_n alone", "[impact]") {
   CHECK(clipped.within(2e-4));
 }
 
-TEST_CASE("every law gives the restitution asked for, with and without tension", "[impact]") {
-  KnownAnswer answer("03c", "restitution asked for, 0.4 and 0.8, all laws, with and without tension", "definition",
+TEST_CASE("every law gives the prescribed restitution, with and without tension", "[impact]") {
+  KnownAnswer answer("03c", "prescribed restitution, 0.4 and 0.8, all laws, with and without tension", "definition",
                      Measure::absolute);
   for (const ContactLaw law : {ContactLaw::mindlin_deresiewicz, ContactLaw::hertz_mindlin, ContactLaw::linear}) {
     for (const Tension tension : {Tension::full, Tension::none}) {
@@ -108,12 +108,12 @@ TEST_CASE("every law gives the restitution asked for, with and without tension",
   CHECK(answer.within(1e-3));
 }
 
-TEST_CASE("the linear law lasts the contact time asked for", "[impact]") {
+TEST_CASE("the linear law lasts the prescribed contact time", "[impact]") {
   Scene scene = plain_scene(1e7, 0.3, 3800);
   scene.contact.law = ContactLaw::linear;
   scene.contact.contact_time = 1e-3;
   scene.interactions(0, 0).restitution = 0.7;
-  CHECK(KnownAnswer("03d", "`linear`: contact time asked for", "definition", Measure::relative, "s")
+  CHECK(KnownAnswer("03d", "`linear`: prescribed contact time", "definition", Measure::relative, "s")
             .add(head_on(scene, 0.0025, 0.3, 1e-7).duration, 1e-3)
             .within(1e-3));
 }

@@ -32,7 +32,7 @@ Grain resting(const Scene& s, double radius, Vec3 v = {}, Vec3 w = {}) {
 TEST_CASE("slip to roll: a sliding sphere ends rolling at 5/7 of its speed", "[rolling]") {
   KnownAnswer end("08a", "slip to roll, mu 0.2 ... 1: speed at the end", "rigid sphere, u0 / (1 + 2 R^2 / (5 l^2))",
                   Measure::relative, "m/s");
-  KnownAnswer time("08b", "slip to roll, mu 0.2 ... 1: rolls at",
+  KnownAnswer time("08b", "slip to roll, mu 0.2 ... 1: time until it rolls",
                    "rigid sphere, slip / (mu g (1 + 5 l^2 / (2 R^2)))", Measure::relative, "s");
   for (const double mu : {0.2, 0.4, 0.6, 0.8, 1.0}) {
     const Scene s = on_plate(plain_scene(1e7, 0.3, 3800, mu, 0.3));
@@ -66,7 +66,7 @@ TEST_CASE("rolling friction stops a rolling sphere after the time and way of a c
   };
   const char* source = "constant torque, (5/7) (mu_r / R) g";
   KnownAnswer time("08c", "rolling stop, hopper and pile sphere: time", source, Measure::relative, "s");
-  KnownAnswer way("08d", "rolling stop, hopper and pile sphere: way", source, Measure::relative, "m");
+  KnownAnswer way("08d", "rolling stop, hopper and pile sphere: distance", source, Measure::relative, "m");
   for (const Row& row :
        {Row{hopper_material(), 0.0025, 0.3568, 17.84e-3}, Row{pile_material(), 0.001, 0.1427, 7.136e-3}}) {
     const Scene s = on_plate(row.scene);
@@ -90,7 +90,7 @@ TEST_CASE("rolling friction stops a rolling sphere after the time and way of a c
 }
 
 TEST_CASE("a sphere rests on an incline up to atan(mu_r / R) and rolls beyond", "[rolling]") {
-  KnownAnswer beyond("08e", "incline 1 % beyond mu_r / l: gain of speed", "constant torque", Measure::relative,
+  KnownAnswer beyond("08e", "incline 1 % beyond mu_r / l: speed gained", "constant torque", Measure::relative,
                      "m/s");
   for (const auto& [scene, R, degrees] :
        {std::make_tuple(hopper_material(), 0.0025, 2.291), std::make_tuple(pile_material(), 0.001, 5.711)}) {

@@ -81,7 +81,7 @@ TEST_CASE("ring breathing: a grain meets its own copies", "[sector][images]") {
     int n;
     double turning_radius, overlap;
   };
-  const char* source = "energy and Hertz, solved apart";
+  const char* source = "energy and Hertz, solved separately";
   KnownAnswer radius("09a", "ring breathing, n 12, 6, 4, 2: turning radius", source, Measure::absolute, "d");
   KnownAnswer overlap("09b", "ring breathing, n 12, 6, 4, 2: largest overlap", source, Measure::relative, "d");
   for (const Row& row :
@@ -204,16 +204,18 @@ TEST_CASE("unfold and compare with the options of the contact", "[sector][images
   spring.contact.rolling = RollingModel::elastic_plastic_spring;
   total.contact.coulomb = Coulomb::total;
   total.contact.tension = Tension::none;
-  KnownAnswer answer("09f",
-                     "the same with rolling `relative`, `elastic_plastic_spring`, and `coulomb = \"total\"`, n 4",
-                     "the full vessel", Measure::absolute, "d");
+  KnownAnswer answer(
+      "09f",
+      "sector against full vessel, rolling `relative`, `elastic_plastic_spring`, and `coulomb = \"total\"`, n 4",
+      "the full vessel", Measure::absolute, "d");
   for (const Scene& scene : {relative, spring, total})
     compare_with_whole(answer, scene, 4, AxisRule::images, clear_of_own_copies(4), 4.5 * d);
   CHECK(answer.within(1e-12));
 }
 
 TEST_CASE("unfold and compare in mixed precision", "[sector][images][precision]") {
-  KnownAnswer answer("09h", "the same in mixed precision, n 4, 12", "the full vessel", Measure::absolute, "d");
+  KnownAnswer answer("09h", "sector against full vessel in mixed precision, n 4, 12", "the full vessel",
+                     Measure::absolute, "d");
   Scene full = pot(pot_radius, 8 * d);
   full.run.precision = Precision::mixed;
   for (const int n : {4, 12})
@@ -222,8 +224,8 @@ TEST_CASE("unfold and compare in mixed precision", "[sector][images][precision]"
 }
 
 TEST_CASE("unfold and compare around an inner cylinder", "[sector][hollow]") {
-  KnownAnswer answer("09g", "the same around an inner cylinder (axis `hollow`), n 2, 6, 12", "the full vessel",
-                     Measure::absolute, "d");
+  KnownAnswer answer("09g", "sector against full vessel around an inner cylinder (axis `hollow`), n 2, 6, 12",
+                     "the full vessel", Measure::absolute, "d");
   for (const int n : {2, 6, 12}) {
     CAPTURE(n);
     Scene full = pot(pot_radius, 8 * d);
@@ -235,8 +237,8 @@ TEST_CASE("unfold and compare around an inner cylinder", "[sector][hollow]") {
   CHECK(answer.within(1e-12));
 }
 
-TEST_CASE("a frictional pair carried through a seam behaves as in free space", "[sector]") {
-  KnownAnswer answer("09e", "frictional pair carried through a seam, n 2 ... 12: every position", "free space",
+TEST_CASE("a frictional pair carried across a seam behaves as in free space", "[sector]") {
+  KnownAnswer answer("09e", "frictional pair carried across a seam, n 2 ... 12: every position", "free space",
                      Measure::absolute, "m");
   for (const int n : {2, 3, 4, 6, 12}) {
     for (const bool swap : {false, true}) {

@@ -51,7 +51,7 @@ bool follows(KnownAnswer answer, const std::vector<CurvePoint>& curve, double to
   return answer.within(tolerance);
 }
 
-KnownAnswer curve_rung(const std::string& place, const std::string& subject, const std::string& source) {
+KnownAnswer curve_answer(const std::string& place, const std::string& subject, const std::string& source) {
   return {place, subject, source, Measure::full_scale};
 }
 
@@ -68,13 +68,13 @@ TEST_CASE("oblique impact of an aluminium oxide sphere: Chung & Ooi (2011), test
       return thrown(sphere, scene, speed * std::cos(a), speed * std::sin(a));
     };
     const std::string place = follows_closely ? "11" : "12", of = std::string(", ") + name;
-    CHECK(follows(curve_rung(place + "a", "oblique impact: tangential restitution" + of, source),
+    CHECK(follows(curve_answer(place + "a", "oblique impact: tangential restitution" + of, source),
                   reference_curve("chung_ooi_4_tangential_restitution.dat"), follows_closely ? 0.02 : 0.15,
                   [&](double x) { return at(x).tangential / (speed * std::sin(x * pi / 180)); }));
-    CHECK(follows(curve_rung(place + "b", "oblique impact: spin" + of, source),
+    CHECK(follows(curve_answer(place + "b", "oblique impact: spin" + of, source),
                   reference_curve("chung_ooi_4_spin.dat"), follows_closely ? 0.02 : 0.065,
                   [&](double x) { return -at(x).spin; }));
-    CHECK(follows(curve_rung(place + "c", "oblique impact: rebound angle of the contact" + of, source),
+    CHECK(follows(curve_answer(place + "c", "oblique impact: rebound angle at the contact" + of, source),
                   reference_curve("chung_ooi_4_rebound_angle.dat"), 0.02, [&](double x) {
                     const Rebound r = at(x);
                     return std::atan2(r.surface, r.normal) * 180 / pi;
@@ -109,7 +109,7 @@ TEST_CASE("elastic oblique impact, two materials: Chung & Ooi (2011), test 5", "
       const Scene scene = scene_of(b, law);
       const std::string subject = std::string("oblique impact, ") + heading + ", sliding branch";
       CHECK(follows(
-          curve_rung(place + heading + "a", subject + ": contact's velocity" + of, source),
+          curve_answer(place + heading + "a", subject + ": velocity at the contact" + of, source),
           reference_curve(surface_file, heading), 0.02, [&](double x) { return surface_after(b, scene, x); }, 5.9));
       CHECK(follows(
           KnownAnswer(place + heading + "b", subject + ": spin" + of, source), reference_curve(spin_file, heading),
@@ -118,10 +118,10 @@ TEST_CASE("elastic oblique impact, two materials: Chung & Ooi (2011), test 5", "
     // The finite-element solution knows micro-slip, which no law here resolves over the whole contact.
     const Scene scene = scene_of(steel, law);
     const std::string fem = "finite elements, in Chung & Ooi (2011), test 5";
-    CHECK(follows(curve_rung(place + "c", "oblique impact, all angles: contact's velocity" + of, fem),
+    CHECK(follows(curve_answer(place + "c", "oblique impact, all angles: velocity at the contact" + of, fem),
                   reference_curve(surface_file, "FEM"), 0.06,
                   [&](double x) { return surface_after(steel, scene, x); }));
-    CHECK(follows(curve_rung(place + "d", "oblique impact, all angles: spin" + of, fem),
+    CHECK(follows(curve_answer(place + "d", "oblique impact, all angles: spin" + of, fem),
                   reference_curve(spin_file, "FEM"), 0.06, [&](double x) { return spin_after(steel, scene, x); }));
   }
 }
@@ -137,12 +137,12 @@ TEST_CASE("the whole curves of Chung & Ooi (2011), test 5, are those of half Min
     Scene scene = scene_of(b, ContactLaw::hertz_mindlin);
     scene.materials[1].poisson = 1;
     scene.materials[1].young = 2 * b.young / ((2 - b.poisson) * (1 + b.poisson));
-    const std::string subject = std::string("oblique impact, ") + heading + ", all angles, k_t halved";
+    const std::string subject = std::string("oblique impact, ") + heading + ", all angles, half of k_t";
     const std::string place = std::string("15") + heading;
-    CHECK(follows(curve_rung(place + "a", subject + ": contact's velocity", source),
+    CHECK(follows(curve_answer(place + "a", subject + ": velocity at the contact", source),
                   reference_curve("chung_ooi_5_surface_velocity.dat", heading), 0.03,
                   [&](double x) { return surface_after(b, scene, x); }));
-    CHECK(follows(curve_rung(place + "b", subject + ": spin", source),
+    CHECK(follows(curve_answer(place + "b", subject + ": spin", source),
                   reference_curve("chung_ooi_5_spin.dat", heading), 0.03,
                   [&](double x) { return spin_after(b, scene, x); }));
   }
@@ -160,7 +160,7 @@ TEST_CASE("a spinning sphere hits a plate, two materials: Chung & Ooi (2011), te
       const auto spun = [&](double surface) { return thrown(b, scene, v, 0, -surface / b.radius); };
       const std::string place = (follows_closely ? "16" : "17") + std::string(heading);
       const std::string subject = std::string("spinning impact, ") + heading;
-      CHECK(follows(curve_rung(place + "a", subject + ": recoil angle, " + name, source),
+      CHECK(follows(curve_answer(place + "a", subject + ": recoil angle, " + name, source),
                     reference_curve("chung_ooi_6_recoil_angle.dat", heading), 0.02, [&](double x) {
                       const Rebound r = spun(x * v);
                       return r.surface / r.normal;
@@ -171,7 +171,7 @@ TEST_CASE("a spinning sphere hits a plate, two materials: Chung & Ooi (2011), te
       auto curve = reference_curve("chung_ooi_6_tangential_restitution.dat", heading);
       if (b.poisson < 0.4)
         curve.erase(std::find_if(curve.begin(), curve.end(), [](CurvePoint p) { return p.x > 5; }), curve.end());
-      CHECK(follows(curve_rung(place + "b", subject + ": tangential restitution, " + name, source), curve,
+      CHECK(follows(curve_answer(place + "b", subject + ": tangential restitution, " + name, source), curve,
                     follows_closely ? 0.02 : 0.13,
                     [&](double x) { return -spun(scale / x).surface / (scale / x); }));
     }
@@ -191,8 +191,8 @@ TEST_CASE("oblique impact with losses: Thornton et al. (2013)", "[known]") {
     for (const auto& [law, name, follows_closely] : laws) {
       const Scene scene = scene_of(b, law);
       const std::string heading = text("e=%.2f", row.restitution);
-      CHECK(follows(curve_rung((follows_closely ? "18" : "19") + heading,
-                               "oblique impact, " + heading + ": contact's velocity, " + name, source),
+      CHECK(follows(curve_answer((follows_closely ? "18" : "19") + heading,
+                                 "oblique impact, " + heading + ": velocity at the contact, " + name, source),
                     reference_curve("thornton_2013_surface_velocity.dat", heading),
                     follows_closely ? row.hertz_mindlin : row.mindlin_deresiewicz,
                     [&](double x) { return thrown(b, scene, v, x * unit).surface / unit; }));

@@ -109,7 +109,7 @@ TEST_CASE("hard: steps of 25 to 80 per cent of the Rayleigh time end with a phys
     CAPTURE(part);
     Scene scene = hard_case("pot");
     scene.time_step = 0.9999 * part * rayleigh_time(scene);
-    const RealRun run = real_run(scene);  // the reader refuses the longest: it is put in behind its back
+    const RealRun run = real_run(scene);  // the reader refuses the longest: it is set after reading
     CAPTURE(run.error);
     CHECK(run.error.find("Likely cause") != std::string::npos);  // a guard threw
     CHECK(run.error.find("time step") != std::string::npos);
@@ -123,11 +123,10 @@ TEST_CASE("hard: steps of 25 to 80 per cent of the Rayleigh time end with a phys
       CHECK_THROWS_AS(hard_case("pot", step), SceneError);
     }
     report("01" + text("%.2f", part), "pot, step " + text("%.0f", 100 * part) + " % of Rayleigh",
-           "ends with a physics error, not as if all were well",
-           std::string(accepted ? "`check` warns" : "refused by `check`; put in behind its back") +
-               ": stopped after " + text("%.0f", static_cast<double>(run.steps)) + " steps with " +
-               text("%.2f", run.energy) + " of the energy at the start, " +
-               run.error.substr(0, run.error.find(" in step")));
+           "ends with a physics error",
+           std::string(accepted ? "`check` warns" : "refused by `check`; forced past it") + ": stopped after " +
+               text("%.0f", static_cast<double>(run.steps)) + " steps with " + text("%.2f", run.energy) +
+               " of the energy at the start, " + run.error.substr(0, run.error.find(" in step")));
   }
 }
 
@@ -173,7 +172,8 @@ TEST_CASE("hard: head-on impacts up to overlaps of a fifth of a diameter, and be
       CHECK(margins < 0.15 * d);
       report("02" + text("%04.0f", speed) + text("%.1f", damping),
              "two grains at " + text("%g", speed) + " m/s each, c_n " + text("%g", damping),
-             "restitution, or the guard: beyond 0.3 d when a list is made, at the latest margins of 0.15 d later",
+             "rebounds, or is stopped by the guard: above 0.3 d when a list is made, at the latest the margins "
+             "(0.15 d) later",
              found + ", overlap " + text("%.1f", 100 * deepest / d) + " % d");
     }
   }
@@ -242,7 +242,7 @@ TEST_CASE("hard: friction without damping: the budget closes by the history coup
   t.check_sound();
   const double coupling = t.step.history_coupling(t.state, t.begin, t.step.energies(t.state)) / t.dissipated();
   CHECK(t.unexplained() < 0.02);
-  report("10", "pot, friction but no damping", "budget closed, history coupling told",
+  report("10", "pot, friction but no damping", "budget closed, history coupling reported",
          "history coupling " + text("%.1f", 100 * coupling) + " %, residual " +
              text("%.2f", 100 * t.unexplained()) + " % of the losses");
 }
@@ -317,7 +317,7 @@ TEST_CASE("the energy budget of every shipped scene closes with the step", "[har
     CHECK(fine < 0.4 * coarse);
     report(std::string("40") + row.name,
            std::string(row.name) + ".toml at " + row.angle +
-               " degrees, 3600 grains in the whole, 0.3 s, its step and half of it",
+               " degrees, 3600 grains in the full vessel, 0.3 s, its step and half of it",
            "residual falls with the step",
            "residual " + text("%.2f", 100 * coarse) + " and " + text("%.2f", 100 * fine) + " % of the losses");
   }

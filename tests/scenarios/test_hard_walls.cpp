@@ -45,7 +45,7 @@ TEST_CASE("hard: a grain exactly on the axis, on a face, on both", "[hard]") {
     }
   }
   report("20", "grains exactly on the axis and on a face, n 2, 3, 4, 12, clamp and pin", "stay; load = weight",
-         "so they do");
+         "they do");
 }
 
 TEST_CASE("hard: a grain exactly on the axis where it has no place: images, line, hollow", "[hard]") {
@@ -81,7 +81,7 @@ TEST_CASE("hard: a grain exactly on the axis where it has no place: images, line
     }
   }
   report("20x", "a grain exactly on the axis, n 2, 3, 4, 12, images, line, hollow; one on a face",
-         "refused by name; the one on the face stays", "so they are");
+         "refused by name; the one on the face stays", "they are");
 }
 
 TEST_CASE("hard: a grain on an edge, and in a gap on two edges at once", "[hard]") {
@@ -176,7 +176,7 @@ TEST_CASE("hard: a rising floor lifts a bed", "[hard]") {
     }
     report(friction ? "25" : "25b",
            std::string("pot, floor rising at 0.05 m/s") + (friction ? "" : ", no friction"),
-           friction ? "lifts the bed; budget closed" : "lifts the bed as one; work = potential energy + losses",
+           friction ? "lifts the bed; budget closed" : "lifts the bed as a whole; work = potential energy + losses",
            text("%.4f", risen) + " of the way, work " + text("%.5f", given / used) +
                " of potential energy + losses, residual " +
                text("%.0e", std::fabs(lift.residual() - residual) / given) + " of the work");
@@ -231,9 +231,9 @@ TEST_CASE("hard: a bed that falls out of its pot at once, or sinks out of it, gr
       CHECK(std::fabs(t.residual()) < 0.02 * t.dissipated());
       report(std::string("26") + (sinks ? "b" : "") + angle,
              std::string("outlet, ") + angle + (sinks ? ", on a sinking floor" : ""),
-             "all leave, some in touch, ledger exact, budget closed",
+             "all leave, some while touching, ledger exact, budget closed",
              text("%.0f", touching) + " of " + text("%.0f", static_cast<double>(t.state.put_in)) +
-                 " leave in touch with another grain, residual " +
+                 " leave while touching another grain, residual " +
                  text("%.2f", 100 * std::fabs(t.residual()) / t.dissipated()) + " % of the losses");
     }
   }
@@ -254,7 +254,8 @@ TEST_CASE("hard: two grains pressed together leave one after the other", "[hard]
       100000));
   CHECK(left > 0.5 * stored);
   CHECK(std::fabs(e.residual()) < 0.01 * left);
-  report("26c", "two grains pressed together fly through the outlet", "the first takes the contact's energy along",
+  report("26c", "two grains pressed together fly through the outlet",
+         "the first takes the contact's energy with it",
          "residual " + text("%.1e", std::fabs(e.residual()) / left) + " of it");
 }
 
@@ -288,7 +289,8 @@ TEST_CASE("hard: a gap of exactly one diameter", "[hard]") {
   }
   // With the axis rule clamp a grain beside the axis cannot move in to pass an orifice in the middle.
   CHECK(fell >= 16);
-  report("27", "one grain over a ring gap and over an orifice of exactly 1 d, in the middle and up to 0.02 d aside",
+  report("27",
+         "one grain over a ring gap and over an orifice of exactly 1 d, on its centre and up to 0.02 d off it",
          "leaves, or is held with load = weight", text("%.0f", fell) + " leave, " + text("%.0f", held) + " held");
 
   for (const char* angle : {"domain.angle=360", "domain.angle=60"}) {
