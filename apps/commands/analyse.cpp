@@ -37,7 +37,7 @@ int command_analyse(const AnalyseArguments& arguments) {
                 << " to ";
     std::cout << time_text(m.end) << " s\n";
   }
-  if (arguments.wedges > 0 && !report.full_vessel) std::cout << "no wedges: they are cut from full vessels alone\n";
+  if (arguments.wedges > 0 && !report.full_vessel) std::cout << "no wedges: they are cut from full vessels only\n";
   for (const std::string& note : report.notes) std::cout << note << '\n';
   std::cout << report.frames << (report.frames == 1 ? " frame" : " frames") << " read; written:\n";
   for (const std::string& file : report.files) std::cout << "  " << file << '\n';

@@ -76,7 +76,7 @@ void print_time_step(const Scene& scene, double step, const std::string& name) {
   const bool linear = scene.contact.law == ContactLaw::linear;
   const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
   if (!(scale > 0)) {
-    std::cout << " (sizes of grains are in their file: not compared)\n";
+    std::cout << " (not compared: grain sizes are in the particle file)\n";
     return;
   }
   std::cout << " = " << short_number(100 * step / scale) << " % of the " << (linear ? "contact" : "Rayleigh")
@@ -161,8 +161,8 @@ void print_domain(const Scene& scene, std::int64_t grains) {
   }
   print_axis(domain);
   if (const auto expected = expected_errors(scene))
-    std::cout << "  expected against the full vessel (apps/study/README.md): " << expectation_text(*expected)
-              << '\n';
+    std::cout << "  expected deviations from the full vessel (apps/study/README.md): "
+              << expectation_text(*expected) << '\n';
 }
 
 /// Simulated time [s] the stages can take; `exact` where a time ends them all, else bounds. Nothing without bound.
@@ -214,18 +214,18 @@ void print_costs(const Scene& scene, double grains, int threads) {
   const int used = threads > 0 ? threads : scene.run.threads > 0 ? scene.run.threads : usable_threads();
   std::cout << "\nCost (estimates)\n  memory: " << size_text(bytes_in_any_case + grains * bytes_per_grain)
             << " (assumes " << size_text(bytes_in_any_case) << " and " << size_text(bytes_per_grain)
-            << " for a grain with its contacts and images in a dense bed that collapses)\n";
+            << " per grain with its contacts and images in a dense bed that collapses)\n";
   bool exact = true;
   const std::optional<double> time = simulated_time(scene, exact);
   if (!time) {
-    std::cout << "  disk and wall time: not known, a stage has no bound in time (at_most)\n";
+    std::cout << "  disk and wall time: unknown, since a stage has no time limit (at_most)\n";
     return;
   }
   const char* const at_most = exact ? "" : "at most ";
   print_disk(scene, grains, *time, at_most);
   const double step = chosen_time_step(scene);
   if (!(step > 0)) {
-    std::cout << "  wall time: not known before the sizes of grains are\n";
+    std::cout << "  wall time: unknown until the grain sizes are known\n";
     return;
   }
   const double steps = steps_of(scene);
@@ -234,7 +234,7 @@ void print_costs(const Scene& scene, double grains, int threads) {
   std::cout << "  wall time: " << at_most << duration_text(steps * grains / (rate * used)) << " on " << used
             << (used == 1 ? " thread" : " threads") << " (" << short_number(*time) << " s simulated, "
             << text_of(std::llround(steps)) << " steps; assumes " << short_number(rate)
-            << " grains times steps per second and core" << (mixed ? ", in mixed precision" : "") << ")\n";
+            << " particle-steps per second and core" << (mixed ? ", in mixed precision" : "") << ")\n";
 }
 
 }  // namespace

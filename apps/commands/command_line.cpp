@@ -8,9 +8,9 @@
 #include <iostream>
 
 #include "apps/commands/commands.hpp"
-#include "io/tables/provenance.hpp"
 #include "io/scene/diagnostics.hpp"
 #include "io/tables/csv.hpp"
+#include "io/tables/provenance.hpp"
 
 namespace wedge {
 namespace {
@@ -34,7 +34,7 @@ const char* const examples =
 double number_of(const std::string& option, const std::string& text) {
   double value = 0;
   if (parse_number(text, value) != NumberError::none || !(value >= 0) || value > 1e12)
-    throw CLI::ValidationError(option, "'" + text + "' is no time in seconds");
+    throw CLI::ValidationError(option, "'" + text + "' is not a time in seconds");
   return value;
 }
 
@@ -67,8 +67,8 @@ std::vector<int> orders_of(const std::string& text) {
     const bool number = parse_number(field.text, degrees) == NumberError::none && degrees >= 1 && degrees <= 180;
     const double order = number ? 360 / degrees : 0;
     if (!number || std::abs(order - std::round(order)) > 1e-6)
-      throw CLI::ValidationError("--angles",
-                                 "'" + field.text + "' is no angle in degrees, 1 to 180, that divides 360");
+      throw CLI::ValidationError(
+          "--angles", "'" + field.text + "' is not an angle in degrees between 1 and 180 that divides 360");
     const int whole = static_cast<int>(std::lround(order));
     if (std::find(orders.begin(), orders.end(), whole) == orders.end()) orders.push_back(whole);
   }
@@ -153,8 +153,7 @@ private:
             "--wall-time",
             [this](const std::string& text) {
               run_.wall_time = wall_time_of(text);
-              if (!(run_.wall_time > 0))
-                throw CLI::ValidationError("--wall-time", "no time is left: it must be above 0");
+              if (!(run_.wall_time > 0)) throw CLI::ValidationError("--wall-time", "it must be above 0");
             },
             "stop with a checkpoint after this time (exit code 75)")
         ->type_name("SECONDS|HH:MM:SS");
@@ -164,7 +163,7 @@ private:
   }
 
   void add_check() {
-    CLI::App* check = command("check", "Validate a scene; say what it means and what it will take",
+    CLI::App* check = command("check", "Check a scene, explain it, and estimate what running it will cost",
                               [this] { return command_check(run_.scene, run_.overrides, run_.threads); });
     scene_options(check);
     thread_option(check);
@@ -173,15 +172,16 @@ private:
     CLI::App* run = command("run", "Run a scene", [this] { return command_run(completed()); });
     scene_options(run);
     thread_option(run);
-    run->add_option("-o,--output", run_.folder, "folder to make for the run")
+    run->add_option("-o,--output", run_.folder, "folder to create for the run")
         ->required()
         ->type_name("DIR")
         ->option_text("DIR REQUIRED");
     limit_options(run);
   }
   void add_resume() {
-    CLI::App* resume = command("resume", "Go on from the newest valid checkpoint, as if never stopped",
-                               [this] { return command_resume(completed()); });
+    CLI::App* resume =
+        command("resume", "Continue from the newest valid checkpoint, as if the run had never stopped",
+                [this] { return command_resume(completed()); });
     folder_option(resume, run_.folder);
     thread_option(resume);
     limit_options(resume);
@@ -192,21 +192,23 @@ private:
         ->type_name("SECONDS");
   }
   void add_looking() {
-    folder_option(command("status", "Say in one line how far a run is, also while it runs",
+    folder_option(command("status", "Report in one line how far a run has got, even while it is running",
                           [this] { return command_status(run_.folder); }),
                   run_.folder);
     CLI::App* compare = command("compare", "Compare two sets of runs: their beds and their analyses",
                                 [this] { return command_compare(reference_, with_, compare_); });
     compare->add_option("REF", reference_, "folders of the reference runs")->required();
     compare->add_option("--with", with_, "folders of the runs to compare")->required()->type_name("RUN");
-    compare->add_option("--csv", compare_.csv, "write every row of the comparison of analyses")->type_name("FILE");
-    compare->add_option("--tolerance", compare_.tolerance, "bounds (TOML); exit code 6 where a row is outside")
+    compare->add_option("--csv", compare_.csv, "write every row of the comparison to this file")->type_name("FILE");
+    compare
+        ->add_option("--tolerance", compare_.tolerance,
+                     "file of tolerances (TOML); exit code 6 if a row is outside them")
         ->type_name("FILE");
-    compare->add_option("--moment", compare_.moment, "compare analyses of this moment only")->type_name("NAME");
+    compare->add_option("--moment", compare_.moment, "compare this moment only")->type_name("NAME");
   }
   void add_analyse() {
     CLI::App* analyse =
-        command("analyse", "Measure a run: everything of apps/analysis/README.md, into DIR/results", [this] {
+        command("analyse", "Measure a run into DIR/results (apps/analysis/README.md says what)", [this] {
           if (analyse_.from && analyse_.to && *analyse_.from > *analyse_.to)
             return usage("--from is later than --to");
           return command_analyse(analyse_);
@@ -219,7 +221,7 @@ private:
           ->type_name("SECONDS");
     };
     time_option("--from", analyse_.from,
-                "besides the stages, average the frames from this simulated time on (window_mean)");
+                "also average the frames from this simulated time on (moment window_mean)");
     time_option("--to", analyse_.to, "... and up to this one");
     analyse
         ->add_option_function<std::string>(
@@ -228,7 +230,7 @@ private:
         ->type_name("DEGREES,...");
     analyse
         ->add_option("--wedges", analyse_.wedges,
-                     "cut so many wedges of each angle from a full vessel (default 0; none from a sector)")
+                     "cut this many wedges of each angle from a full vessel (default 0)")
         ->check(CLI::Range(0, 360))
         ->type_name("N");
     analyse->add_option("--cut", analyse_.cut, "height of the horizontal cut [m] (default 5 d above the ground)")
@@ -238,7 +240,7 @@ private:
         ->type_name("N");
   }
   void add_export() {
-    CLI::App* out = command("export", "Write a frame as a table (csv) or for a viewer (vtp), or the walls",
+    CLI::App* out = command("export", "Write a frame as a table (csv) or for a viewer (vtp), or write the walls",
                             [this] { return export_checked(); });
     folder_option(out, export_.folder);
     auto* frame =
@@ -261,11 +263,11 @@ private:
     CLI::App* report =
         command("report", "Draw the figures of analysed runs on one HTML page (needs python3-matplotlib)",
                 [this] { return command_report(report_); });
-    report->add_option("DIR", report_.folders, "folders of runs, or with runs up to three levels below")
+    report->add_option("DIR", report_.folders, "folders of runs, or folders that hold runs up to three levels down")
         ->required();
     report
         ->add_option("-o,--output", report_.output,
-                     "page to write (default: report/index.html in DIR; of several, report.html here)")
+                     "page to write (default: DIR/report/index.html; for several DIRs, ./report.html)")
         ->type_name("FILE");
     report->add_option("--compare", report_.comparisons, "files of `wedge compare --csv`")->type_name("FILE");
     report->add_option("--title", report_.title, "title of the page")->type_name("TEXT");

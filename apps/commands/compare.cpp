@@ -32,11 +32,11 @@ AnalysedRuns analysed_runs(const std::vector<std::string>& folders, bool demande
     RunResults run = read_domain(folder);
     if (analysed(run)) {
       for (const std::string& file : run.missing)
-        found.says += folder + ": there is no results/" + file + ": what it tells of this run is left out\n";
+        found.says += folder + ": there is no results/" + file + ": its quantities are left out for this run\n";
       found.runs.push_back(std::move(run));
       continue;
     }
-    const std::string says = folder + ": is not analysed: wedge analyse " + folder;
+    const std::string says = folder + ": has not been analysed; run: wedge analyse " + folder;
     if (demanded) throw FileError(says);
     found.says += says + '\n';
   }
@@ -52,7 +52,7 @@ int usage(const std::string& problem) {
 std::string mixture(const std::vector<RunResults>& runs, const std::string& set) {
   for (const RunResults& run : runs)
     if (run.order != runs[0].order || run.slot != runs[0].slot)
-      return "the " + set + " runs are of different domains: " + runs[0].folder + " (" +
+      return "the " + set + " runs have different domains: " + runs[0].folder + " (" +
              (runs[0].slot ? "slot" : angle_text(runs[0].order) + " degrees") + ") and " + run.folder + " (" +
              (run.slot ? "slot" : angle_text(run.order) + " degrees") + "); compare one angle at a time";
   return "";
@@ -94,7 +94,8 @@ std::string same_seed_warnings(const std::vector<std::string>& folders) {
     if (same.size() < 2) continue;
     text += "warning: ";
     for (std::size_t k = 0; k < same.size(); ++k) text += (k > 0 ? ", " : "") + same[k];
-    text += ": the same scene and seed; they count as " + std::to_string(same.size()) + " seeds and tell of one\n";
+    text += ": the same scene and seed; they count as " + std::to_string(same.size()) +
+            " seeds but carry the information of one\n";
   }
   return text;
 }
@@ -114,7 +115,7 @@ int compare_analyses(RunSets& sets, const CompareOptions& options) {
   std::vector<std::string> moments = common_moments(sets);
   if (!options.moment.empty()) {
     if (std::find(moments.begin(), moments.end(), options.moment) == moments.end())
-      return usage("--moment " + options.moment + ": both sets do not have it; " +
+      return usage("--moment " + options.moment + ": not both sets have it; " +
                    suggestion(options.moment, moments));
     moments = {options.moment};
   }

@@ -71,8 +71,9 @@ void take_doubles(ParticleFrame& frame, const std::string& source, const Scene& 
                               ? checkpoint_of_step(folder.checkpoints(), frame.header.step)
                               : std::nullopt;
   if (!checkpoint) {
-    std::cerr << "note: " << source << " holds single precision, so do these numbers; no checkpoint is of the same "
-              << "step. For all frames in full: precision = \"double\" in [output]\n";
+    std::cerr << "note: " << source
+              << " is in single precision, and so are these numbers; no checkpoint is of the same "
+              << "step. For frames in full precision, set precision = \"double\" in [output]\n";
     return;
   }
   State state = make_domain(scene);

@@ -37,7 +37,7 @@ constexpr SectorLaw pile_laws[] = {
 constexpr double stop_rim = 4.5, stop_middle = 3.65, stop_middle_uncertainty = 0.10, stop_width = 0.49;
 constexpr double doubtful_share = 0.05;
 
-// theta D0 / d, an arc of 2 d at the rim: the laws of flows are not of thinner ones.
+// theta D0 / d, an arc of 2 d at the rim: the flow laws were not fitted to thinner sectors.
 constexpr double least_rim = 4;
 
 /// "+1.6 +- 0.1 %": as many decimals as the uncertainty has sense, at most two.
@@ -103,7 +103,7 @@ std::string expectation_text(const SectorExpectation& expected) {
   for (const ExpectedError& e : expected.errors)
     text += (text.empty() ? "" : ", ") + e.quantity + ' ' + percent(e.error, e.uncertainty);
   if (expected.thin_at_orifice)
-    text += "; too thin at the orifice (an arc below 2 d): its flow says nothing of the full vessel's";
+    text += "; too thin at the orifice (an arc below 2 d): its flow says nothing about the full vessel's";
   if (expected.stopped_share)
     text += "; an arch stops or interrupts " + number_text(std::round(100 * *expected.stopped_share)) + " +- " +
             number_text(std::max(1.0, std::round(100 * expected.stopped_uncertainty))) + " % of such sectors";
@@ -114,7 +114,7 @@ std::optional<std::string> expectation_warning(const Scene& scene) {
   const Domain& domain = scene.domain;
   if (domain.kind == DomainKind::sector && domain.sides != Sides::periodic)
     return std::string(
-        "the sides of this sector are walls: neither its bed nor its flow is the full vessel's "
+        "the sides of this sector are walls: neither its bed nor its flow matches the full vessel's "
         "(apps/study/README.md, \"What bounds a sector\")");
   const std::optional<SectorExpectation> expected = expected_errors(scene);
   if (!expected) return std::nullopt;
@@ -123,8 +123,8 @@ std::optional<std::string> expectation_warning(const Scene& scene) {
   if (!wrong && !expected->thin_at_orifice && !(expected->stopped_share.value_or(0) > doubtful_share))
     return std::nullopt;
   return number_text(360.0 / domain.order) +
-         " degrees here: expected against the full vessel (apps/study/README.md): " + expectation_text(*expected) +
-         ". Use a larger angle, or several seeds and the full vessel once";
+         " degrees: expected deviations from the full vessel (apps/study/README.md): " +
+         expectation_text(*expected) + ". Use a larger angle, or several seeds and the full vessel once";
 }
 
 }  // namespace wedge

@@ -10,8 +10,8 @@
 #include "apps/commands/commands.hpp"
 #include "apps/results/run_folder.hpp"
 #include "apps/run/progress_line.hpp"
-#include "io/tables/provenance.hpp"
 #include "io/scene/diagnostics.hpp"
+#include "io/tables/provenance.hpp"
 
 namespace wedge {
 
@@ -40,7 +40,7 @@ int command_status(const std::string& folder) {
           short_number(p.time_step) + " s, " + std::to_string(p.grains) + " grains, " +
           std::to_string(p.discharged) + " discharged, " + duration_text(p.wall_seconds) + " spent";
   if (p.state == "running" && !somebody_runs(RunFolder(folder)))
-    line += ", but nobody is at work: go on with wedge resume " + folder;
+    line += ", but no process is running it; continue with: wedge resume " + folder;
   else if (p.state == "running" && p.eta_seconds >= 0)
     line += ", about " + duration_text(p.eta_seconds) + " to go";
   if (!p.message.empty()) line += ": " + p.message;

@@ -34,7 +34,7 @@ ResultFile::ResultFile(std::string path) : path_(std::move(path)), content_(read
   if (!next_line(line)) refuse("the file is empty");
   for (const CsvField& field : split_csv_line(line)) headings_.push_back(heading_of(field.text));
   if (headings_.size() < 2 || headings_[0].name != "moment" || headings_[1].name != "part")
-    refuse("this is no table of `wedge analyse`: its first columns must be moment and part");
+    refuse("this is not a table of `wedge analyse`: its first columns must be moment and part");
 }
 
 std::size_t ResultFile::column(const std::string& name) const {
@@ -85,7 +85,7 @@ bool ResultFile::next_line(std::string_view& line) {
 
 double ResultFile::number_of(std::string_view text) const {
   double value = 0;
-  if (parse_number(text, value) != NumberError::none) refuse("'" + std::string(text) + "' is no number");
+  if (parse_number(text, value) != NumberError::none) refuse("'" + std::string(text) + "' is not a number");
   return value;
 }
 

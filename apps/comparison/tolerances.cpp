@@ -59,8 +59,7 @@ Judgement judge(const std::vector<ComparisonRow>& rows, const ToleranceFile& fil
         if (!says.empty()) judgement.breaches.push_back({&row, says});
     }
     if (!about_any)
-      diagnostics.error(tolerance.place, "this tolerance is about no row of the comparison",
-                        remedy(tolerance, rows));
+      diagnostics.error(tolerance.place, "this tolerance fits no row of the comparison", remedy(tolerance, rows));
   }
   diagnostics.throw_if_wrong();
   judgement.judged = judged.size();

@@ -200,7 +200,7 @@ std::vector<StageResult> read_bed_table(const std::string& path) {
     const std::vector<CsvField> fields = split_csv_line(std::string_view(text).substr(begin, end - begin));
     begin = end + 1;
     if (line == 1) {
-      if (fields.empty() || fields[0].text != "stage") throw_at_line(path, line, "this is no table of beds");
+      if (fields.empty() || fields[0].text != "stage") throw_at_line(path, line, "this is not a table of beds");
       for (std::size_t k = 1; k < fields.size(); ++k) columns.push_back(quantity_of_heading(fields[k].text));
       continue;
     }
@@ -209,7 +209,7 @@ std::vector<StageResult> read_bed_table(const std::string& path) {
     StageResult stage{fields[0].text, columns};
     for (std::size_t k = 0; k < columns.size(); ++k) {
       if (parse_number(fields[k + 1].text, stage.quantities[k].value) != NumberError::none)
-        throw_at_line(path, line, "'" + fields[k + 1].text + "' is no number");
+        throw_at_line(path, line, "'" + fields[k + 1].text + "' is not a number");
     }
     stages.push_back(std::move(stage));
   }

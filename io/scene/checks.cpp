@@ -62,7 +62,7 @@ void check_rolling(SceneReading& reading, const Scene& scene) {
       if (rolling > radius && reading.places.count(path) > 0)
         reading.diagnostics.error(reading.place(path),
                                   "a rolling friction of " + plain_number(rolling) +
-                                      " m is longer than the smallest radius, " + plain_number(radius) + " m",
+                                      " m exceeds the smallest radius, " + plain_number(radius) + " m",
                                   "rolling friction is a LENGTH, usually \"0.01 d\" to \"0.05 d\"");
     }
   }
@@ -77,7 +77,7 @@ void check_contact_time(SceneReading& reading, const Scene& scene) {
                                : pair.damping_normal;
     if (damping < 1) continue;
     reading.diagnostics.error(reading.place("contact.contact_time"),
-                              "a contact damped critically or more has no 'contact_time'",
+                              "a contact with critical or stronger damping has no 'contact_time'",
                               "give a damping below 1 (a restitution above 0.14 without tension), or 'stiffness'");
     return;
   }
@@ -93,7 +93,7 @@ void check_fill(SceneReading& reading, const Scene& scene) {
     reading.diagnostics.error(reading.place("particles.region"), "the fill region is narrower than a grain",
                               "the largest diameter is " + plain_number(largest) + " m");
   if (fill->z_high - fill->z_low < largest)
-    reading.diagnostics.error(reading.place("particles.region.z"), "the fill region is lower than a grain",
+    reading.diagnostics.error(reading.place("particles.region.z"), "the fill region is shallower than a grain",
                               "the largest diameter is " + plain_number(largest) + " m");
   const double grain = numbers::pi / 6 * mean_power_of_diameter(scene.particles, 3);
   const double volume = fill_volume(scene.domain, *fill), height = fill->z_high - fill->z_low;
@@ -139,12 +139,12 @@ void check_step(SceneReading& reading, const Scene& scene, double step, const st
   const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
   const double limit = (linear ? refused_linear_step : refused_step) * scale;
   if (scale > 0 && step > limit)
-    reading.diagnostics.error(
-        reading.place(path),
-        "a time step of " + plain_number(step) + " s is " + short_number(100 * step / scale) + " % of the " +
-            (linear ? "contact time, " : "Rayleigh time, ") + short_number(scale) + " s",
-        "use at most " + short_number(limit) +
-            " s, better \"auto\": " + short_number(scale * (linear ? 1.0 / 50 : automatic_part(scene))) + " s");
+    reading.diagnostics.error(reading.place(path),
+                              "a time step of " + plain_number(step) + " s is " + short_number(100 * step / scale) +
+                                  " % of the " + (linear ? "contact time, " : "Rayleigh time, ") +
+                                  short_number(scale) + " s",
+                              "use at most " + short_number(limit) + " s, or better \"auto\", which is " +
+                                  short_number(scale * (linear ? 1.0 / 50 : automatic_part(scene))) + " s");
 }
 
 /// How stages end must be something that can happen.

@@ -86,12 +86,11 @@ void read_model(TableReader& t, ContactModel& model) {
   model.tension = t.choice("tension", tension_names).value_or(model.tension);
   model.rolling_velocity = t.choice("rolling_velocity", rolling_velocity_names).value_or(model.rolling_velocity);
   if (model.rolling_velocity == RollingVelocity::relative && model.rolling != RollingModel::constant_torque)
-    t.error("rolling_velocity", "'rolling_velocity' has a meaning for rolling = \"constant_torque\" only",
-            "remove it");
+    t.error("rolling_velocity", "'rolling_velocity' only applies to rolling = \"constant_torque\"", "remove it");
   model.rolling_damping = t.number("rolling_damping", Quantity::not_negative("a damping ratio, such as 0.3"))
                               .value_or(model.rolling_damping);
   if (t.has("rolling_damping") && model.rolling != RollingModel::elastic_plastic_spring)
-    t.error("rolling_damping", "'rolling_damping' has a meaning for rolling = \"elastic_plastic_spring\" only",
+    t.error("rolling_damping", "'rolling_damping' only applies to rolling = \"elastic_plastic_spring\"",
             "remove it");
   model.coulomb = t.choice("coulomb", coulomb_names).value_or(model.coulomb);
   model.normal_stiffness =
@@ -110,7 +109,7 @@ void read_model(TableReader& t, ContactModel& model) {
   }
   for (const char* key : {"stiffness", "contact_time", "tangential_ratio"})
     if (t.has(key))
-      t.error(key, "'" + std::string(key) + "' has a meaning for the law 'linear' only",
+      t.error(key, "'" + std::string(key) + "' only applies to the law 'linear'",
               "remove it, or write law = \"linear\"");
 }
 
@@ -130,7 +129,7 @@ void read_contact(SceneReading& reading, const toml::table& root, Scene& scene) 
     const Interaction values = read_pair(p);
     const std::optional<Pair> pair = materials_of(scene, key);
     if (!pair) {
-      reading.diagnostics.error(place, "'" + key + "' is no pair of materials", pair_suggestion(scene, key));
+      reading.diagnostics.error(place, "'" + key + "' is not a pair of materials", pair_suggestion(scene, key));
       continue;
     }
     const auto [first, fresh] = seen.emplace(PairTable<Interaction>::slot(pair->a, pair->b), key);

@@ -53,7 +53,7 @@ std::vector<std::string> read_wall_names(TableReader& t, const std::string& key,
       t.reading().diagnostics.error(place, "the wall '" + names[i] + "' is not there to be removed",
                                     "an earlier stage removed it, or it has present = false");
     else if (!remove && !present.insert(names[i]).second)
-      t.reading().diagnostics.error(place, "the wall '" + names[i] + "' is there already",
+      t.reading().diagnostics.error(place, "the wall '" + names[i] + "' is already present",
                                     "give it present = false, or remove it in an earlier stage");
   }
   return names;
@@ -126,7 +126,7 @@ void read_settings(SceneReading& reading, const toml::table& root, Scene& scene)
   scene.run.skin =
       run.number_or_auto("skin", Quantity::not_negative("a length in m, such as \"0.1 d\""), true).value_or(0);
   scene.run.threads =
-      static_cast<int>(run.integer("threads", "a number of threads, 0: what there is", 0).value_or(0));
+      static_cast<int>(run.integer("threads", "a number of threads, or 0 for all available", 0).value_or(0));
   if (const auto precision = run.choice("precision", precision_names)) scene.run.precision = *precision;
   run.finish();
 }

@@ -32,7 +32,8 @@ void read_domain_kind(TableReader& t, Domain& domain) {
     t.error("kind", "a full vessel has an angle of 360 degrees, not " + plain_number(*angle), "remove 'kind'");
   if (kind == DomainKind::sector && !t.has("angle")) t.missing("angle", "write angle = 90");
   if (kind == DomainKind::sector && angle == 360.0)
-    t.error("kind", "an angle of 360 degrees is no sector", "give a smaller angle, such as 90, or remove 'kind'");
+    t.error("kind", "an angle of 360 degrees is not a sector",
+            "give a smaller angle, such as 90, or remove 'kind'");
   const Quantity width = Quantity::positive("a width along y, such as 0.02 or \"4 d\"");
   if (slot && !t.has("width")) t.missing("width", width.meaning);
   const auto slot_width = t.length("width", width);

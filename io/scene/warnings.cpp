@@ -25,7 +25,7 @@ void doubt_step(const Scene& scene, double step, const std::string& where, Warni
         (!linear && damping_shortens(scene) > 1
              ? ", with a damping ratio of " + short_number(largest_damping(scene))
              : "") +
-        ": a bed may be heated by such a step and never come to rest; watch the residual in energies.csv");
+        ": such a step may heat a bed, which then never comes to rest; watch the residual in energies.csv");
   const double impact = linear ? 0 : collision_time(scene, 1.0);
   if (impact > 0 && impact < 10 * step)
     warnings.push_back("with " + where + " of " + short_number(step) + " s a collision at 1 m/s lasts only " +
@@ -52,7 +52,7 @@ void doubt_fill(const Scene& scene, Warnings& warnings) {
   const auto* fill = std::get_if<RandomFill>(&scene.particles.grains);
   if (!fill) return;
   if (fill->count % scene.domain.order != 0)
-    warnings.push_back("count = " + std::to_string(fill->count) + " does not divide by " +
+    warnings.push_back("count = " + std::to_string(fill->count) + " is not divisible by " +
                        std::to_string(scene.domain.order) + ": the sector takes " +
                        std::to_string(fill->count / scene.domain.order) + " grains");
   const double slack = 1e-9;

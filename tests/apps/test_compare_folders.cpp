@@ -195,7 +195,7 @@ TEST_CASE("Folders that lack files are compared in what they have", "[compare]")
   CompareOptions options;
   options.csv = study.path("rows.csv");
   const Said said = compare(full, sector, options);
-  CHECK(has(said.text, sector[0] + ": there is no results/map.csv: what it tells of this run is left out"));
+  CHECK(has(said.text, sector[0] + ": there is no results/map.csv: its quantities are left out for this run"));
   for (const Row& row : rows_of(options.csv)) {
     CHECK(row.at("kind") != "map");
     if (row.at("kind") == "profile") CHECK(row.at("reference_runs") == "1");
@@ -203,7 +203,7 @@ TEST_CASE("Folders that lack files are compared in what they have", "[compare]")
   fs::remove_all(sector[0] + "/results");
   const Said bare = compare(full, sector);
   CHECK(bare.code == 0);
-  CHECK(has(bare.text, sector[0] + ": is not analysed: wedge analyse " + sector[0]));
+  CHECK(has(bare.text, sector[0] + ": has not been analysed; run: wedge analyse " + sector[0]));
   options = {};
   options.tolerance = study.file("t.toml", "[[tolerance]]\nrelative = 1\n");
   CHECK_THROWS_AS(compare(full, sector, options), FileError);
@@ -216,12 +216,12 @@ TEST_CASE("A file of an analysis that is wrong is refused with its place", "[com
                     scalars = sector[0] + "/results/scalars.csv";
   const std::string head = "moment,part,region,quantity,unit,scale,step,first,counts\n";
   for (const auto& [rows, says] :
-       {std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 two\n", ":2: error: 'two' is no number"),
+       {std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 two\n", ":2: error: 'two' is not a number"),
         std::make_pair(head + "settle,whole,all,vz,m/s,0,0,0,1 2\n", ":2: error: scale must be above 0"),
         std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 -2\n", ":2: error: counts must be at least 0"),
         std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0\n", ":2: error: expected 9 fields"),
         std::make_pair(std::string("moment,part,area\n"), ":1: error: there is no column 'region'"),
-        std::make_pair(std::string("stage,time\n"), ":1: error: this is no table of `wedge analyse`"),
+        std::make_pair(std::string("stage,time\n"), ":1: error: this is not a table of `wedge analyse`"),
         std::make_pair(std::string(), ":1: error: the file is empty")}) {
     write_text_file_atomically(distributions, rows);
     CHECK(has(complaint([&] { compare(full, sector); }), distributions + says));
@@ -240,7 +240,7 @@ TEST_CASE("Sets of mixed angles and moments that are not there are wrong usage",
   sector.push_back(other[0]);
   const Said mixed = compare(full, sector);
   CHECK(mixed.code == 2);
-  CHECK(has(mixed.errors, "the compared runs are of different domains: " + sector[0] + " (90 degrees)"));
+  CHECK(has(mixed.errors, "the compared runs have different domains: " + sector[0] + " (90 degrees)"));
   CHECK(mixed.text.empty());
   CHECK(compare(sector, full).code == 2);
 }
@@ -264,7 +264,7 @@ TEST_CASE("Tolerances: exit 0 within, 6 outside, and never silently about nothin
 
   const auto refused = [&](const std::string& text) { return complaint([&] { judged(text); }); };
   CHECK(has(refused("[[tolerance]]\nquantity = \"cm\"\nrelative = 1\n"),
-            "tolerance.toml:1:1: error: this tolerance is about no row of the comparison"));
+            "tolerance.toml:1:1: error: this tolerance fits no row of the comparison"));
   CHECK(has(refused("[[tolerance]]\nquantity = \"cnn\"\nrelative = 1\n"), "did you mean 'cn'?"));
   CHECK(has(refused("[[tolerance]]\nkind = \"map\"\nmeasure = \"ks\"\nrelative = 1\n"), "no row has all of these"));
   CHECK(has(refused("[[tolerance]]\nquantty = \"cn\"\nrelative = 1\n"), "did you mean 'quantity'?"));

@@ -176,7 +176,7 @@ TEST_CASE("wedge check warns of sectors that are too thin for their bed or flow,
   CHECK(!expectation_warning(hopper({"domain.angle=90"})));
   CHECK(expectation_warning(hopper({"domain.angle=45"})));
   CHECK_THAT(*expectation_warning(hopper({"domain.angle=15"})),
-             Catch::StartsWith("15 degrees here: ") && Catch::Contains("too thin at the orifice"));
+             Catch::StartsWith("15 degrees: ") && Catch::Contains("too thin at the orifice"));
   CHECK_THAT(*expectation_warning(hopper({"domain.angle=90", "domain.sides=rigid"})), Catch::Contains("are walls"));
   CHECK(!expectation_warning(scene("sandpile", {"domain.angle=180"})));
   CHECK(expectation_warning(scene("sandpile", {"domain.angle=30"})));

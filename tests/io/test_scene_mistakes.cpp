@@ -102,7 +102,7 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"time.step=4e-5"}, "% of the Rayleigh time");
   refused({"stage.settle.time_step=1"}, "--set stage.settle.time_step=1: error: a time step of 1 s");
   refused({"domain.angle=2.4"}, "the sector is too thin");
-  refused({"contact.grain-grain.rolling=0.0011"}, "longer than the smallest radius, 0.001 m");
+  refused({"contact.grain-grain.rolling=0.0011"}, "exceeds the smallest radius, 0.001 m");
   refused({"contact.grain-grain.sliding=-0.1"}, "'sliding' must be at least 0, not -0.1");
   refused({"contact.steel-grain.restitution=0"}, "'restitution' must be above 0, not 0");
   refused({"material.steel.poisson=-1"}, "'poisson' must be above -1, not -1");
@@ -116,8 +116,8 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"domain.axis=hollow"}, "'inner_radius' is missing");
   refused({"domain.inner_radius=0.01"}, "only the axis 'hollow' has an inner radius");
   refused({"domain.axis_material=steel"}, "is made of nothing");
-  refused({"contact.rolling=none", "contact.rolling_velocity=relative"}, "has a meaning for rolling");
-  refused({"contact.rolling_damping=0.3"}, "has a meaning for rolling");
+  refused({"contact.rolling=none", "contact.rolling_velocity=relative"}, "only applies to rolling");
+  refused({"contact.rolling_damping=0.3"}, "only applies to rolling");
   refused({"particles.speed=fast"}, "'speed' must be a number, not a string");
   refused({"domain.outlet.z=0.01"}, "the outlet lies above the bottom of the fill region");
   refused({"stage.open.until.discharged=1001"}, "only 1000 grains are in this domain");
@@ -125,8 +125,8 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"contact.stiffness=1"}, "for the law 'linear' only");
   refused({"contact.law=linear"}, "needs stiffness = N/m or contact_time = s");
   refused({"contact.law=linear", "contact.contact_time=1e-3", "contact.grain-grain.damping=1.2"},
-          "a contact damped critically or more has no 'contact_time'");
-  refused({"stage.open.add=[\"shell\"]"}, "the wall 'shell' is there already");
+          "a contact with critical or stronger damping has no 'contact_time'");
+  refused({"stage.open.add=[\"shell\"]"}, "the wall 'shell' is already present");
   refused({"wall.floor.present=false"}, "the wall 'floor' is not there to be removed");
   refused({"wall.floor.profile=[[0, 0], [-0.04, 0]]"}, "'r' must be at least 0");
   refused({"domain.kind=full"}, "a full vessel has an angle of 360 degrees, not 90");
@@ -163,7 +163,7 @@ TEST_CASE("doubtful scenes are accepted with a warning", "[scene]") {
   warned({"time.step=2e-5"}, "% of the Rayleigh time");
   warned({"wall.floor.profile=[[0, 0], [\"19.95 d\", 0]]"}, "nearly join: they are 0.0001 m (0.05 d) apart");
   warned({"wall.floor.profile=[[0, 0.01], [\"20 d\", 0.01]]"}, "passes through the fill region");
-  warned({"particles.count=4001"}, "does not divide by 4");
+  warned({"particles.count=4001"}, "is not divisible by 4");
   warned({"contact.rolling=none"}, "has no effect");
   warned({"contact.grain-grain.damping=1.5"}, "critical or above");
   warned({"stage.open.at_most=0"}, "may never end");

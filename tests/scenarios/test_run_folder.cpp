@@ -216,7 +216,7 @@ TEST_CASE("a table of a frame is exact where a checkpoint is of the same step", 
   out.frame = 2;  // the end of the stage "settle", at step 3000
   CHECK_THAT(written_to(std::cerr, [&] { command_export(out); }), Contains("stage_settle.hdf"));
   out.frame = 1;  // at 0.05 s no checkpoint was written
-  CHECK_THAT(written_to(std::cerr, [&] { command_export(out); }), Contains("holds single precision"));
+  CHECK_THAT(written_to(std::cerr, [&] { command_export(out); }), Contains("is in single precision"));
 }
 
 TEST_CASE("a start without grains is legal but spoken of", "[run]") {
