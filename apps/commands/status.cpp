@@ -1,4 +1,4 @@
-// status.cpp: wedge status: how far a run is, in one line.
+// status.cpp: wedge status: how far a run has got, in one line.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// progress_line.hpp: the line that tells a person how far the run is.
+// progress_line.hpp: the line that tells a person how far the run has got.
 #pragma once
 
 #include <string>

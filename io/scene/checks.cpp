@@ -1,4 +1,4 @@
-// checks.cpp: errors of physical sense.
+// checks.cpp: whether a scene makes physical sense.
 #include "io/scene/checks.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// gaps.hpp: where the walls of a scene leave a gap that was hardly meant. Internal to io.
+// gaps.hpp: where the walls of a scene leave a gap that was probably not meant. Internal to io.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// provenance.hpp: where results come from (provenance.json) and how far a run is (progress.json).
+// provenance.hpp: where results come from (provenance.json) and how far a run has got (progress.json).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// test_compare.cpp: distances between pools with known answers; do intervals and yardstick hold what they promise?
+// test_compare.cpp: distances between pools with known answers; do intervals and yardstick keep what they promise?
 #include <cmath>
 #include <functional>
 #include <vector>

@@ -1,4 +1,4 @@
-// test_compare_folders.cpp: wedge compare on folders as `wedge analyse` leaves them: sound, poor and wrong.
+// test_compare_folders.cpp: wedge compare on folders as `wedge analyse` leaves them: complete, incomplete and wrong.
 #include <cmath>
 #include <filesystem>
 #include <functional>

@@ -1,4 +1,4 @@
-// test_finds.cpp: what the fuzzers once found, and the seeds they begin with: read again, each must come back.
+// test_finds.cpp: finds of the fuzzers, and their seeds, read again: every reader must return.
 #include <algorithm>
 #include <filesystem>
 #include <vector>

@@ -1,4 +1,4 @@
-// test_scene_gaps.cpp: which gaps between walls are spoken of, and which are meant; sectors that are thin.
+// test_scene_gaps.cpp: which gaps between walls raise a warning, and which do not; sectors that are thin.
 #include <string>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// test_scene_mistakes.cpp: what is said of scenes that are wrong, impossible or doubtful.
+// test_scene_mistakes.cpp: the messages about scenes that are wrong, impossible or doubtful.
 #include <string>
 #include <vector>
 
