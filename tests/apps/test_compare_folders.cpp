@@ -404,7 +404,7 @@ TEST_CASE("Velocities of a bed at rest are left out where nothing of them is res
     return compare(full, sector, options).code;
   };
   CHECK(judged("quantity = \"vz\"\n") == 0);  // of the other moment
-  CHECK(has(complaint([&] { judged("moment = \"settle\"\nquantity = \"vz\"\n"); }), "is about no row"));
+  CHECK(has(complaint([&] { judged("moment = \"settle\"\nquantity = \"vz\"\n"); }), "fits no row"));
   options.tolerance.clear();
 
   lay_to_rest(sector[0], "settle", true);  // one grain of one run moves
