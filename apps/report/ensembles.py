@@ -1,8 +1,7 @@
 # ensembles.py: runs that differ in their seed alone, and means over them.
 import numpy as np
 
-# Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom.
-STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131]
+from student import two_sided
 
 
 class Sample:
@@ -18,7 +17,8 @@ class Sample:
 
 
 def student(n):
-    return float("nan") if n < 2 else STUDENT[n - 2] if n - 2 < len(STUDENT) else 2.0
+    """Half width of the 95 % interval of the mean of n numbers, in standard errors."""
+    return two_sided(0.95, n - 1) if n > 1 else float("nan")
 
 
 def mean_and_sd(rows):
