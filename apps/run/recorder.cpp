@@ -12,6 +12,7 @@
 #include "io/files/frame.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/tables/csv.hpp"
+#include "io/tables/file_series.hpp"
 #include "kernels/passes/measure.hpp"
 
 namespace wedge {
@@ -175,7 +176,7 @@ void Recorder::list_frames(const RunMemory& memory) const {
     std::vector<SeriesEntry> entries;
     for (std::size_t n = 0; n < memory.frame_times.size(); ++n)
       entries.push_back({RunFolder::frame_name(kind, static_cast<std::int64_t>(n)), memory.frame_times[n]});
-    update_series(folder_.frame_series(kind), entries);
+    write_file_series(folder_.frame_series(kind), entries);
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/hdf5_file.hpp"
-#include "io/tables/json.hpp"
 
 namespace wedge {
 namespace {
@@ -302,18 +301,6 @@ ContactFrame read_contact_frame(const std::string& path) {
     frame.second_position.set(c, ends.get(2 * c + 1));
   }
   return frame;
-}
-
-void update_series(const std::string& path, const std::vector<SeriesEntry>& entries) {
-  std::string files;
-  for (const SeriesEntry& entry : entries) {
-    if (!files.empty()) files += ',';
-    files += "\n    {\"name\": " + json_string(entry.name) + ", \"time\": " + json_number(entry.time) + "}";
-  }
-  JsonObject series;
-  series.add("file-series-version", "1.0");
-  series.add_raw("files", "[" + files + "\n  ]");
-  write_text_file_atomically(path, series.text());
 }
 
 }  // namespace wedge

@@ -77,14 +77,4 @@ FrameHeader read_particle_header(const std::string& path);
 ParticleFrame read_particle_frame(const std::string& path);
 ContactFrame read_contact_frame(const std::string& path);
 
-/// A frame as the series file of ParaView lists it.
-struct SeriesEntry {
-  std::string name;  // file name, relative to the series file
-  double time = 0;   // s
-};
-
-/// Replaces `path` (particles.hdf.series, contacts.hdf.series) by the list that ParaView opens as one data set in
-/// time.
-void update_series(const std::string& path, const std::vector<SeriesEntry>& entries);
-
 }  // namespace wedge

@@ -3,13 +3,13 @@
 
 #include <sched.h>
 
-#include <charconv>
 #include <ctime>
 #include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/hdf5_file.hpp"
-#include "io/tables/csv.hpp"
 #include "io/tables/json.hpp"
 
 #ifndef WEDGE_VERSION
@@ -78,18 +78,28 @@ void for_each_field(Self& p, Visit&& visit) {
   visit("message", p.message);
 }
 
-bool parse_value(const std::string& text, std::string& value) {
-  value = text;
-  return true;
+/// Each takes a value of its kind and returns whether it was one; `kind` says what it is.
+bool take(const Json& json, std::string& value, std::string& kind) {
+  kind = "a text";
+  if (json.is_string()) value = json.get<std::string>();
+  return json.is_string();
 }
-bool parse_value(const std::string& text, double& value) {
-  return text == "null" || parse_number(text, value) == NumberError::none;
+bool take(const Json& json, double& value, std::string& kind) {
+  kind = "a number";
+  if (json.is_number()) value = json.get<double>();
+  return json.is_number() || json.is_null();  // null stands for a number that was not finite: the value stays
 }
 template <class Whole>
-bool parse_value(const std::string& text, Whole& value) {
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  return result.ec == std::errc{} && result.ptr == end;
+bool take(const Json& json, Whole& value, std::string& kind) {
+  using Limits = std::numeric_limits<Whole>;
+  kind = "a whole number from " + std::to_string(Limits::min()) + " to " + std::to_string(Limits::max());
+  if (!json.is_number_integer()) return false;
+  if (json.is_number_unsigned() && json.get<std::uint64_t>() > static_cast<std::uint64_t>(Limits::max()))
+    return false;
+  const auto number = json.get<std::int64_t>();
+  if (number < Limits::min() || number > Limits::max()) return false;
+  value = static_cast<Whole>(number);
+  return true;
 }
 
 }  // namespace
@@ -103,36 +113,34 @@ void write_provenance(const std::string& path, const std::vector<std::string>& c
                       const std::string& precision) {
   std::vector<std::string> command = command_line;
   if (!command.empty()) command[0] = command[0].substr(command[0].find_last_of('/') + 1);
-  JsonObject object;
-  object.add("program", "wedge");
-  object.add("version", WEDGE_VERSION);
-  object.add("git_describe", WEDGE_GIT_DESCRIBE);
-  object.add("compiler", compiler());
-  object.add("compiler_flags", WEDGE_COMPILER_FLAGS);
-  object.add("hdf5", hdf5_version());
-  object.add("processor", processor_model());
-  object.add("cores", usable_cores());
-  object.add("threads", threads);
-  object.add("precision", precision);
-  object.add("started", utc_now());
-  object.add("command_line", command);
-  write_text_file_atomically(path, object.text());
+  write_text_file_atomically(path, json_text({{"program", "wedge"},
+                                              {"version", WEDGE_VERSION},
+                                              {"git_describe", WEDGE_GIT_DESCRIBE},
+                                              {"compiler", compiler()},
+                                              {"compiler_flags", WEDGE_COMPILER_FLAGS},
+                                              {"hdf5", hdf5_version()},
+                                              {"processor", processor_model()},
+                                              {"cores", usable_cores()},
+                                              {"threads", threads},
+                                              {"precision", precision},
+                                              {"started", utc_now()},
+                                              {"command_line", command}}));
 }
 
 void write_progress(const std::string& path, const Progress& progress) {
-  JsonObject object;
-  for_each_field(progress, [&](const char* key, const auto& value) { object.add(key, value); });
-  write_text_file_atomically(path, object.text());
+  Json json;
+  for_each_field(progress, [&](const char* key, const auto& value) { json[key] = value; });
+  write_text_file_atomically(path, json_text(json));
 }
 
 Progress read_progress(const std::string& path) {
+  const Json json = parse_json(read_text_file(path), path);
+  if (!json.is_object()) throw_file_error(path, "is no progress file: expected a JSON object");
   Progress progress;
-  const auto entries = parse_flat_json(read_text_file(path), path);
   for_each_field(progress, [&](const char* key, auto& value) {
-    for (const auto& [name, text] : entries) {
-      if (name == key && !parse_value(text, value))
-        throw_file_error(path, "'" + name + "' is not a number: " + text);
-    }
+    std::string kind;
+    if (const auto found = json.find(key); found != json.end() && !take(*found, value, kind))
+      throw_file_error(path, std::string("'") + key + "': expected " + kind);
   });
   return progress;
 }

@@ -10,7 +10,7 @@
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/tables/csv.hpp"
-#include "io/tables/json.hpp"
+#include "io/tables/provenance.hpp"
 #include "io/tables/series.hpp"
 #include "io/tables/state_csv.hpp"
 #include "tests/fuzz/fuzz_readers.hpp"
@@ -34,6 +34,15 @@ void grains(const std::string& path, const std::string& copy) {
   if (!same) throw std::logic_error("a table of grains does not read back to itself");
 }
 
+void progress(const std::string& path, const std::string& copy) {
+  const auto texts = [](const Progress& p) { return p.state + '\n' + p.stage + '\n' + p.message; };
+  const Progress read = read_progress(path);
+  write_progress(copy, read);
+  const Progress again = read_progress(copy);
+  if (texts(again) != texts(read) || again.step != read.step || again.time != read.time)
+    throw std::logic_error("a progress file does not read back to itself");
+}
+
 }  // namespace
 
 void csv(const std::string& bytes) {
@@ -51,7 +60,7 @@ void csv(const std::string& bytes) {
         if (read_text_file(path).back() != '\n') throw std::logic_error("a series ends within a row");
         return;
       case 'j':
-        (void)parse_flat_json(text, path);
+        progress(path, scratch / "copy.json");
         return;
       default:
         grains(path, scratch / "copy.csv");

@@ -5,9 +5,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/frame.hpp"
 #include "io/files/hdf5_file.hpp"
-#include "io/tables/provenance.hpp"
 #include "io/files/vtp.hpp"
-#include "io/tables/json.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/sample_state.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -216,56 +214,6 @@ TEST_CASE("a full disk is an error of its own name, frame after frame") {
   }
   CHECK(read_particle_frame(folder / "small.hdf").particles.count() == 5);
   CHECK(folder.files() == 1);
-}
-
-TEST_CASE("the series file lists names and times") {
-  const ScratchFolder folder;
-  update_series(folder / "particles.hdf.series", {{"particles_000000.hdf", 0}, {"particles_000001.hdf", 0.1}});
-  CHECK(read_text_file(folder / "particles.hdf.series") ==
-        "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n"
-        "    {\"name\": \"particles_000000.hdf\", \"time\": 0},\n"
-        "    {\"name\": \"particles_000001.hdf\", \"time\": 0.1}\n  ]\n}\n");
-}
-
-TEST_CASE("JSON strings are escaped and read back") {
-  CHECK(json_string("a\"b\\c\n\t\x01 \xC3\xA9") == "\"a\\\"b\\\\c\\n\\t\\u0001 \xC3\xA9\"");
-  CHECK(json_string("\xFF\xC3") == "\"\\ufffd\\ufffd\"");
-  CHECK(json_string("\xED\xA0\x80").find('\xED') == std::string::npos);  // a surrogate
-  JsonObject object;
-  object.add("text \"1\"", "a\"b\\c\n\x01\xC3\xA9");
-  object.add("number", 0.1);
-  object.add("not finite", std::nan(""));
-  const auto entries = parse_flat_json(object.text(), "x.json");
-  REQUIRE(entries.size() == 3);
-  CHECK(entries[0] == std::pair<std::string, std::string>("text \"1\"", "a\"b\\c\n\x01\xC3\xA9"));
-  CHECK(entries[1].second == "0.1");
-  CHECK(entries[2].second == "null");
-  CHECK_THROWS_WITH(parse_flat_json("{\n\"a\": tru }", "x.json"), Contains("x.json:2"));
-  for (const char* bad :
-       {"", "{", "{\"a\"", "{\"a\":", "{\"a\": 1", "{\"a\": \"x", "{\"a\": \"\\u12\"}", "{} 1", "[]"}) {
-    CHECK_THROWS_AS(parse_flat_json(bad, "x.json"), FileError);
-  }
-}
-
-TEST_CASE("progress and provenance are written as JSON") {
-  const ScratchFolder folder;
-  Progress progress;
-  progress.state = "running";
-  progress.stage = "dis\"charge\"";
-  progress.step = 12345678901;
-  progress.time = 0.1 + 0.2;
-  write_progress(folder / "progress.json", progress);
-  const Progress read = read_progress(folder / "progress.json");
-  CHECK(read.state == progress.state);
-  CHECK(read.stage == progress.stage);
-  CHECK(read.step == progress.step);
-  CHECK(read.time == progress.time);
-  CHECK(read.eta_seconds == -1);
-  write_provenance(folder / "provenance.json", {"/home/someone/bin/wedge", "run", "a \"b\".toml"}, 4, "mixed");
-  const std::string text = read_text_file(folder / "provenance.json");
-  CHECK_THAT(text, Contains("\"threads\": 4"));
-  CHECK_THAT(text, Contains(R"("command_line": ["wedge", "run", "a \"b\".toml"])"));
-  CHECK_THAT(text, !Contains("someone"));
 }
 
 TEST_CASE("exports to VTK name their arrays and count their cells") {
