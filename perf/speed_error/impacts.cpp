@@ -54,7 +54,7 @@ Result impacts(const std::string& scene_name, double step, double speed, Size si
   scene.walls.clear();
   scene.domain.gravity.setZero();
   scene.domain.outlet_height.reset();
-  const int phases = size == Size::full ? 16 : 3;
+  const int phases = impact_places(size);
   std::vector<double> restitution, spin;
   double restitution_size = 0, spin_size = 0, count = 0;
   for (const double degrees : {10, 25, 40, 55, 70}) {

@@ -2,9 +2,8 @@
 #include "perf/speed_error/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <set>
-#include <sstream>
 
 #include "io/files/atomic_file.hpp"
 #include "io/tables/csv.hpp"
@@ -12,132 +11,174 @@
 namespace wedge::speed_error {
 namespace {
 
-// What [run] precision may be, the standard first. A new one needs no more than its name here.
-const std::vector<std::string> precisions{"double", "mixed"};
+// What [run] precision may be besides double. A new one needs no more than its name here.
+const std::vector<std::string> other_precisions{"mixed"};
 
-Variant with(double Variant::*field, double value) {
-  Variant v;
-  v.*field = value;
-  return v;
+constexpr double slow_impact = 0.1, fast_impact = 1.0;  // m/s
+constexpr double reference_check = 0.1;  // % of the Rayleigh time: what is left of the reference's own error
+constexpr int drift_seeds = 3;
+
+/// A choice to be run with some seeds.
+struct Planned {
+  Variant variant;
+  int seeds;
+};
+
+std::vector<double> steps(Size size) {
+  return size == Size::quick ? std::vector<double>{5, 10, 40} : std::vector<double>{2, 5, 10, 15, 20, 30, 40};
 }
 
-std::vector<Variant> sectors() {
-  std::vector<Variant> all(1);
+/// All choices, the standard first: races are relative to it.
+std::vector<Planned> choices(Size size) {
+  const bool quick = size == Size::quick;
+  const auto seeds = [quick](int full) { return quick ? 2 : full; };
+  std::vector<Planned> all{{Variant(), seeds(8)}};
+  const auto add = [&](int full, auto Variant::*field, auto value) {
+    Planned planned{Variant(), seeds(full)};
+    planned.variant.*field = value;
+    if (planned.variant.name() != all[0].variant.name()) all.push_back(planned);
+  };
+  for (const double step : steps(size)) add(4, &Variant::step, step);
+  for (const double young : quick ? std::vector<double>{1e6} : std::vector<double>{1e8, 3e6, 1e6})
+    add(4, &Variant::young, young);
+  for (const double skin : quick ? std::vector<double>{0.1} : std::vector<double>{0.05, 0.1, 0.2})
+    add(3, &Variant::skin, skin);
   for (const char* axis : {"clamp", "images"}) {
     for (const int angle : {90, 60, 45}) {
-      all.emplace_back();
-      all.back().angle = angle;
-      all.back().axis = axis;
+      add(8, &Variant::angle, angle);
+      all.back().variant.axis = axis;
     }
   }
+  for (const std::string& precision : other_precisions) add(8, &Variant::precision, precision);
   return all;
+}
+
+/// Beds whose stability is tested.
+std::vector<Firmness> beds(Size size) {
+  if (size == Size::quick) return {{1e7, 0.3}};
+  return {{1e6, 0.3}, {1e7, 0.3}, {1e8, 0.3}, {1e7, 0.1}, {1e7, 0.6}};
+}
+
+Job impact_job(const std::string& scene, double step, double speed, Size size) {
+  Subject subject{"impact", scene, Variant()};
+  subject.variant.step = step;
+  subject.speed = speed;
+  return {scene + "_impact_step" + number_text(step) + "_speed" + number_text(speed), [=] {
+            return std::vector{Measurement{subject, impacts(scene, step, speed, size)}};
+          }};
+}
+
+Job drift_job(const std::string& scene, const std::string& other, int seed, Size size) {
+  Subject subject{"drift", scene, Variant()};
+  subject.variant.precision = other;
+  subject.seed = seed;
+  return {scene + "_drift_" + other + "_seed" + std::to_string(seed), [=] {
+            return std::vector{Measurement{subject, drift(scene, other, seed, size)}};
+          }};
+}
+
+Job stability_job(const std::string& scene, Firmness firmness, Size size) {
+  Subject subject{"stability", scene, Variant()};
+  subject.variant.young = firmness.young;
+  subject.damping = firmness.damping;
+  return {scene + "_stability_" + firmness.name(), [=] {
+            return std::vector{Measurement{subject, stability(scene, firmness, size)}};
+          }};
+}
+
+Job race_job(const std::string& scene, Size size) {
+  return {scene + "_race", [=] {
+            std::vector<Variant> variants;
+            for (const Planned& planned : choices(size)) variants.push_back(planned.variant);
+            const std::vector<Result> results = race(scene, variants, size);
+            std::vector<Measurement> all;
+            for (std::size_t k = 0; k < variants.size(); ++k)
+              all.push_back({{"race", scene, variants[k]}, results[k]});
+            return all;
+          }};
+}
+
+Job bed_job(const std::string& scene, const Variant& variant, int seed, Size size) {
+  Subject subject{"bed", scene, variant};
+  subject.seed = seed;
+  return {scene + "_" + variant.name() + "_seed" + std::to_string(seed), [=] {
+            return std::vector{Measurement{subject, bed_run(scene, variant, seed, size)}};
+          }};
+}
+
+std::string or_nothing(double value) { return std::isnan(value) ? "" : number_text(value); }
+
+/// The choice as pairs of name and text.
+std::vector<std::pair<std::string, std::string>> fields(const Variant& v) {
+  return {{"step", number_text(v.step)},
+          {"young", number_text(v.young)},
+          {"skin", number_text(v.skin)},
+          {"angle", number_text(v.angle)},
+          {"axis", v.axis},
+          {"precision", v.precision}};
+}
+
+std::string rows(const Measurement& m) {
+  const Subject& s = m.subject;
+  std::string start = s.kind + "," + s.scene + ",";
+  for (const auto& [name, text] : fields(s.variant)) start += text + ",";
+  start += or_nothing(s.damping) + "," + or_nothing(s.speed) + "," + std::to_string(s.seed) + ",";
+  std::string text;
+  for (const auto& [quantity, value] : m.result) text += start + quantity + "," + number_text(value) + "\n";
+  return text;
 }
 
 }  // namespace
 
-Plan::Plan(Size size) : size_(size) {
-  const bool quick = size == Size::quick;
-  steps_ = quick ? std::vector<double>{5, 10, 40} : std::vector<double>{2, 5, 10, 15, 20, 30, 40};
-  Table step{"step", "Time step", {}, 0, quick ? 2 : 4}, young{"young", "Stiffness", {}, 0, quick ? 2 : 4};
-  for (const double s : steps_) step.variants.push_back(with(&Variant::step, s));
-  for (const double e : quick ? std::vector<double>{1e7, 1e6} : std::vector<double>{1e8, 1e7, 3e6, 1e6})
-    young.variants.push_back(with(&Variant::young, e));
-  Table skin{"skin", "Skin", {}, 0, quick ? 2 : 3};
-  for (const double s : quick ? std::vector<double>{0, 0.1} : std::vector<double>{0, 0.05, 0.1, 0.2})
-    skin.variants.push_back(with(&Variant::skin, s));
-  Table sector{"sector", "Angle of a sector", sectors(), 0, quick ? 2 : 8};
-  tables_ = {step, young, skin, sector};
-  if (precisions.size() > 1) {
-    Table precision{"precision", "Precision", {}, 0, quick ? 2 : 8};
-    for (const std::string& p : precisions) {
-      precision.variants.emplace_back();
-      precision.variants.back().precision = p;
-      if (p != "double") drifters_.push_back(p);
-    }
-    tables_.push_back(precision);
-  }
-}
-
-std::vector<Firmness> Plan::beds() const {
-  if (size_ == Size::quick) return {{1e7, 0.3}};
-  return {{1e6, 0.3}, {1e7, 0.3}, {1e8, 0.3}, {1e7, 0.1}, {1e7, 0.6}};
-}
-
-int Plan::seeds(const Variant& variant) const {
-  int most = 0;
-  for (const Table& t : tables_)
-    for (const Variant& v : t.variants)
-      if (v.name() == variant.name()) most = std::max(most, t.seeds);
-  return most;
-}
-
-std::vector<Job> Plan::jobs() const {
+std::vector<Job> jobs(Size size) {
   std::vector<Job> all;
-  const Size size = size_;
-  std::vector<Variant> variants;
-  std::set<std::string> known;
-  int seeds_most = 0;
-  variants.emplace_back();  // the standard comes first: races are relative to it
-  known.insert(variants[0].name());
-  for (const Table& t : tables_) {
-    seeds_most = std::max(seeds_most, t.seeds);
-    for (const Variant& v : t.variants)
-      if (known.insert(v.name()).second) variants.push_back(v);
-  }
-  std::vector<double> impact_steps = steps_;
+  const std::vector<Planned> planned = choices(size);
+  std::vector<double> impact_steps = steps(size);
   impact_steps.push_back(reference_check);
+  std::vector<std::string> drifters{"nudged"};
+  drifters.insert(drifters.end(), other_precisions.begin(), other_precisions.end());
   for (const std::string& scene : scenes) {
     for (const double step : impact_steps)
-      for (const double speed : {slow_impact, fast_impact})
-        all.push_back({impact_name(scene, step, speed), [=] { return impacts(scene, step, speed, size); }});
-    for (const std::string& other : drifters_)
+      for (const double speed : {slow_impact, fast_impact}) all.push_back(impact_job(scene, step, speed, size));
+    for (const std::string& other : drifters)
       for (int seed = 1; seed <= (size == Size::quick ? 1 : drift_seeds); ++seed)
-        all.push_back({drift_name(scene, other, seed), [=] { return drift(scene, other, seed, size); }});
-    for (const Firmness f : beds())
-      all.push_back({stability_name(scene, f), [=] { return stability(scene, f, size); }});
-    all.push_back({race_name(scene), [=] { return race(scene, variants, size); }});
+        all.push_back(drift_job(scene, other, seed, size));
+    for (const Firmness firmness : beds(size)) all.push_back(stability_job(scene, firmness, size));
+    all.push_back(race_job(scene, size));
   }
-  for (int seed = 1; seed <= seeds_most; ++seed)
-    for (const Variant& v : variants)
+  int most = 0;
+  for (const Planned& p : planned) most = std::max(most, p.seeds);
+  for (int seed = 1; seed <= most; ++seed)
+    for (const Planned& p : planned)
       for (const std::string& scene : scenes)
-        if (seed <= seeds(v))
-          all.push_back({run_name(scene, v, seed), [=] { return bed_run(scene, v, seed, size); }});
+        if (seed <= p.seeds) all.push_back(bed_job(scene, p.variant, seed, size));
   return all;
 }
 
-std::string Plan::run_name(const std::string& scene, const Variant& variant, int seed) {
-  return scene + "_" + variant.name() + "_seed" + std::to_string(seed);
-}
-std::string Plan::impact_name(const std::string& scene, double step, double speed) {
-  return scene + "_impact_step" + number_text(step) + "_speed" + number_text(speed);
-}
-std::string Plan::stability_name(const std::string& scene, Firmness firmness) {
-  return scene + "_stability_" + firmness.name();
-}
-std::string Plan::drift_name(const std::string& scene, const std::string& other, int seed) {
-  return scene + "_drift_" + other + "_seed" + std::to_string(seed);
-}
-
-Store::Store(std::string folder) : folder_(std::move(folder)) { std::filesystem::create_directories(folder_); }
-
-std::optional<Result> Store::find(const std::string& job) const {
-  const std::string path = folder_ + "/" + job + ".txt";
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  std::istringstream text(read_text_file(path));
-  Result result;
-  for (std::string name, value; text >> name >> value;) {
-    double number = 0;
-    if (parse_number(value, number) != NumberError::none) return std::nullopt;
-    result[name] = number;
+Store::Store(std::string folder, Size size) : folder_(std::move(folder)) {
+  std::filesystem::create_directories(folder_);
+  std::string text = "scene,item,value\n";
+  const auto add = [&](const std::string& scene, const std::string& item, const std::string& value) {
+    text += scene + "," + item + "," + csv_quoted(value) + "\n";
+  };
+  for (const auto& [name, value] : fields(Variant())) add("", name, value);
+  add("", "impact_places", std::to_string(impact_places(size)));
+  add("", "discharged", std::to_string(discharged_grains(size)));
+  for (const std::string& scene : scenes) {
+    add(scene, "file", scene_file(scene));
+    for (const std::string& change : scaled_down(scene, size)) add(scene, "set", change);
   }
-  return result;
+  write_text_file_atomically(folder_ + "/setup.csv", text);
 }
 
-void Store::keep(const std::string& job, const Result& result) const {
-  std::string line;
-  for (const auto& [name, value] : result) line += name + " " + number_text(value) + " ";
-  line.back() = '\n';
-  write_text_file_atomically(folder_ + "/" + job + ".txt", line);
+bool Store::has(const Job& job) const { return std::filesystem::exists(path_of(job)); }
+
+void Store::keep(const Job& job, const std::vector<Measurement>& measurements) const {
+  std::string text = "kind,scene,";
+  for (const auto& [name, value] : fields(Variant())) text += name + ",";
+  text += "damping,speed,seed,quantity,value\n";
+  for (const Measurement& m : measurements) text += rows(m);
+  write_text_file_atomically(path_of(job), text);
 }
 
 }  // namespace wedge::speed_error

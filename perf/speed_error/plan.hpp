@@ -1,8 +1,8 @@
-// plan.hpp: which jobs there are, in which order, and their results, kept in files.
+// plan.hpp: which jobs there are and in which order; the files of their results.
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,71 +10,41 @@
 
 namespace wedge::speed_error {
 
-/// A column of a table of errors.
-struct Column {
-  std::string key;      // in Result
-  std::string heading;  // in the page
+/// What a result is of. Fields that a kind of job does not vary are the standard's, or empty in its file.
+struct Subject {
+  std::string kind;  // "bed", "impact", "drift", "stability", "race"
+  std::string scene;
+  Variant variant;
+  double damping = std::numeric_limits<double>::quiet_NaN();  // ratio
+  double speed = std::numeric_limits<double>::quiet_NaN();    // m/s
+  int seed = 1;
 };
 
-/// One table of the page: variants of which one is the reference.
-struct Table {
-  std::string key, title;
-  std::vector<Variant> variants;
-  std::size_t reference = 0;
-  int seeds = 0;
+struct Measurement {
+  Subject subject;
+  Result result;
 };
 
 struct Job {
   std::string name;
-  std::function<Result()> work;
+  std::function<std::vector<Measurement>()> work;
 };
 
-class Plan {
-public:
-  explicit Plan(Size size);
+/// All jobs; the first seed of everything comes first, so that a page can be had early.
+std::vector<Job> jobs(Size size);
 
-  const std::vector<Table>& tables() const { return tables_; }
-  const std::vector<double>& steps() const { return steps_; }
-  /// Beds whose stability is tested.
-  std::vector<Firmness> beds() const;
-  /// What drift is measured of: "nudged" and the precisions other than double.
-  const std::vector<std::string>& drifters() const { return drifters_; }
-  Size size() const { return size_; }
-  int seeds(const Variant& variant) const;
-  /// All jobs; the first seed of everything comes first, so that a page can be had early.
-  std::vector<Job> jobs() const;
-
-  static std::string run_name(const std::string& scene, const Variant& variant, int seed);
-  static std::string impact_name(const std::string& scene, double step, double speed);
-  static std::string drift_name(const std::string& scene, const std::string& other, int seed);
-  static std::string stability_name(const std::string& scene, Firmness firmness);
-  static std::string race_name(const std::string& scene) { return scene + "_race"; }
-
-  static constexpr double slow_impact = 0.1, fast_impact = 1.0;  // m/s
-  static constexpr int drift_seeds = 3;
-  static constexpr double reference_check =
-      0.1;  // % of the Rayleigh time: what is left of the reference's own error
-
-private:
-  Size size_;
-  std::vector<double> steps_;
-  std::vector<Table> tables_;
-  std::vector<std::string> drifters_{"nudged"};
-};
-
-/// Results in files of one line each, in a folder: "name value name value ...".
+/// Results in files of comma-separated values in a folder, one file a job, with a row for each quantity.
 class Store {
 public:
-  explicit Store(std::string folder);
-  std::optional<Result> find(const std::string& job) const;
-  void keep(const std::string& job, const Result& result) const;
+  /// Makes the folder, and in it setup.csv: how the scenes are set up and what the standard choice is.
+  Store(std::string folder, Size size);
+  bool has(const Job& job) const;
+  /// Throws FileError. Post: has(job), or the file is not there at all.
+  void keep(const Job& job, const std::vector<Measurement>& measurements) const;
 
 private:
+  std::string path_of(const Job& job) const { return folder_ + "/" + job.name + ".csv"; }
   std::string folder_;
 };
-
-/// Writes BASE.md and BASE.svg from what the store has. `origin` says where it comes from.
-void write_page(const std::string& base, const Plan& plan, const Store& store, const std::string& origin);
-void write_plot(const std::string& path, const Plan& plan, const Store& store);
 
 }  // namespace wedge::speed_error

@@ -131,7 +131,7 @@ void measure_settled(const Course& c, Result& result) {
 }
 
 void discharge_hopper(Course& c, Size size, Result& result) {
-  const double wanted = (size == Size::full ? 600 : 200) / c.copies();
+  const double wanted = discharged_grains(size) / c.copies();
   const double jammed = 0.25;  // s without a grain: an arch stands
   const double opened = c.state.time;
   c.open();
@@ -158,8 +158,8 @@ void collapse_pile(Course& c, Result& result) {
 
 constexpr double longest_settling = 1.0;  // s
 
-void race_phase(std::vector<std::unique_ptr<Course>>& courses, const std::vector<std::string>& names,
-                const char* phase, int rounds, Result& result) {
+void race_phase(std::vector<std::unique_ptr<Course>>& courses, const std::string& name, int rounds,
+                std::vector<Result>& results) {
   const double window = 300 * courses[0]->dt;  // s: the same piece of time for all
   std::vector<std::vector<double>> ratios(courses.size());
   for (int round = 0; round < rounds; ++round) {
@@ -170,13 +170,12 @@ void race_phase(std::vector<std::unique_ptr<Course>>& courses, const std::vector
       cost.push_back(computing_seconds() - before);
     }
     for (std::size_t k = 0; k < courses.size(); ++k) ratios[k].push_back(cost[0] / cost[k]);
-    result["seconds_per_second" + std::string(phase)] = cost[0] / window;
   }
   for (std::size_t k = 0; k < courses.size(); ++k) {
     std::sort(ratios[k].begin(), ratios[k].end());
-    result[names[k] + phase] = ratios[k][ratios[k].size() / 2];
-    result[names[k] + phase + "_low"] = ratios[k].front();
-    result[names[k] + phase + "_high"] = ratios[k].back();
+    results[k][name] = ratios[k][ratios[k].size() / 2];
+    results[k][name + "_low"] = ratios[k].front();
+    results[k][name + "_high"] = ratios[k].back();
   }
 }
 
@@ -265,11 +264,10 @@ Result bed_run(const std::string& scene, const Variant& variant, int seed, Size 
   return result;
 }
 
-Result race(const std::string& scene, const std::vector<Variant>& variants, Size size) {
+std::vector<Result> race(const std::string& scene, const std::vector<Variant>& variants, Size size) {
   Course standard(make_scene(scene, {}, 1, size));
   standard.settle(longest_settling);
   std::vector<std::unique_ptr<Course>> courses;
-  std::vector<std::string> names;
   for (const Variant& v : variants) {
     Scene s = make_scene(scene, v, 1, size);
     if (v.angle == 360 && v.young == Variant().young) {
@@ -278,17 +276,16 @@ Result race(const std::string& scene, const std::vector<Variant>& variants, Size
       courses.push_back(std::make_unique<Course>(std::move(s)));
       courses.back()->settle(longest_settling);
     }
-    names.push_back(v.name());
   }
-  Result result;
+  std::vector<Result> results(variants.size());
   const int rounds = size == Size::full ? 7 : 3;
-  race_phase(courses, names, ":rest", rounds, result);
+  race_phase(courses, "speed_rest", rounds, results);
   for (const auto& c : courses) {
     c->open();
     c->run(2500 * courses[0]->dt);
   }
-  race_phase(courses, names, ":flow", rounds, result);
-  return result;
+  race_phase(courses, "speed_flow", rounds, results);
+  return results;
 }
 
 Result stability(const std::string& scene, Firmness firmness, Size size) {

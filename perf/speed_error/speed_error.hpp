@@ -38,12 +38,15 @@ Scene make_scene(const std::string& scene, const Variant& variant, int seed, Siz
 std::string scene_file(const std::string& scene);
 std::vector<std::string> scaled_down(const std::string& scene, Size size);
 
+/// Grains after which a discharge has been seen, counted for the whole vessel.
+constexpr int discharged_grains(Size size) { return size == Size::full ? 600 : 200; }
+
 /// Fills, settles, opens, measures. `broke` is 1 when the physics guard stopped the run.
 Result bed_run(const std::string& scene, const Variant& variant, int seed, Size size);
 
-/// Simulated time per second of computing of each variant over that of the standard, in turn, settled (":rest") and
-/// with the outlet open (":flow"): median of the rounds, and with "_low" and "_high" least and most.
-Result race(const std::string& scene, const std::vector<Variant>& variants, Size size);
+/// Simulated time per second of computing of each variant over that of the first, in turn, settled ("speed_rest")
+/// and with the outlet open ("speed_flow"): median of the rounds, and with "_low" and "_high" least and most.
+std::vector<Result> race(const std::string& scene, const std::vector<Variant>& variants, Size size);
 
 /// A bed to be tested for stability.
 struct Firmness {
@@ -62,6 +65,9 @@ Result stability(const std::string& scene, Firmness firmness, Size size);
 /// Distance of equal grains after 10, 100, 1000 steps from one moment of the flow, in double precision and as
 /// `other`; "nudged" is double precision with each coordinate moved by its last bit: what chaos makes of round-off.
 Result drift(const std::string& scene, const std::string& other, int seed, Size size);
+
+/// Places within a time step at which the grains of an impact first touch.
+constexpr int impact_places(Size size) { return size == Size::full ? 16 : 3; }
 
 /// Oblique impacts of two grains at `speed` [m/s] with this step [% of the Rayleigh time], against a very fine
 /// step: root mean square error of restitution and spin as parts of their own size, and its uncertainty by
