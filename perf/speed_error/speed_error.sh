@@ -27,8 +27,8 @@ for python in ${WEDGE_PYTHON:-python3 /usr/bin/python3} ""; do
 done
 
 # Results belong to the code and the scenes that made them.
-key=$({ find core kernels apps/measure apps/setup -name '*.[ch]pp'
-  ls apps/run/bed_table.?pp apps/scenes/{hopper_small,sandpile}.toml perf/speed_error/{runs,impacts}.cpp; } |
+key=$({ find core kernels apps/measure apps/setup apps/run -name '*.[ch]pp'
+  ls apps/scenes/{hopper_small,sandpile}.toml perf/speed_error/{runs,impacts}.cpp; } |
   LC_ALL=C sort | xargs cat | sha1sum | cut -c 1-10)
 results=build/speed_error/$key${quick:+-quick}
 [ "$fresh" = no ] || rm -rf "$results"
