@@ -41,6 +41,11 @@ struct Domain {
   std::optional<double> outlet_height;   // m: a grain whose centre falls below counts as discharged
 };
 
+/// Copies of the domain that make the whole vessel: n of a sector, whatever its sides; a slot is all there is.
+inline double copies_in_vessel(const Domain& domain) {
+  return domain.kind == DomainKind::sector ? domain.order : 1;
+}
+
 /// A wall: a polyline in the (r, z) half plane turned about z, or, in a slot, in the (x, z) plane drawn out along
 /// y.
 struct WallDescription {

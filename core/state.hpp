@@ -52,6 +52,10 @@ struct Departure {
 };
 
 struct State {
+  /// How many grains of the whole vessel a grain of the domain stands for. Every extensive sum (grains, mass, load,
+  /// rate) of the vessel counts each grain by it.
+  double weight(Index) const { return copies; }
+
   Symmetry symmetry = Symmetry::none();
   Vessel vessel;
   Particles particles;
@@ -67,11 +71,15 @@ struct State {
   double wall_travel = 0;             // m: how far the fastest wall has gone since the list was made
   std::int64_t list_builds = 0;       // neighbour lists made so far
   double mean_diameter = 0;           // m, of the grains at the start
+  double copies = 1;                  // of the domain that make the whole vessel, also where its sides are solid
   bool alike = false;                 // all grains at the start had one radius and one material
   std::int64_t put_in = 0;            // grains put in since the start
   std::int64_t taken_out = 0;         // grains discharged since the start
   std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
 };
+
+/// Symmetry, vessel and copies of a scene, no grains.
+State make_domain(const Scene& scene);
 
 /// The grain that the second of a row is or copies, and the turn at which the first sees it (0: in the domain).
 struct Partner {

@@ -110,16 +110,6 @@ void require_fit(const State& state, const Scene& scene, const std::string& path
     throw FileError(path + ": the contacts lack the rolling couples that the scene asks for");
 }
 
-State make_domain(const Scene& scene) {
-  State state;
-  if (scene.domain.sides == Sides::periodic) {
-    if (scene.domain.kind == DomainKind::sector) state.symmetry = Symmetry::rotation(scene.domain.order);
-    if (scene.domain.kind == DomainKind::slot) state.symmetry = Symmetry::translation(scene.domain.slot_width);
-  }
-  state.vessel = Vessel(scene);
-  return state;
-}
-
 /// Refuses a start with grains outside the widest wall: they would fall past the vessel and count as discharged.
 static void refuse_grains_outside(const State& state) {
   const Particles& p = state.particles;

@@ -8,9 +8,6 @@
 
 namespace wedge {
 
-/// Symmetry and vessel of a scene, no grains.
-State make_domain(const Scene& scene);
-
 /// The whole starting state: random fill, state file, or another run's checkpoint with its contact histories.
 /// Throws SceneError when grains find no room or lie outside the domain, FileError when a file cannot be read.
 State make_start(const Scene& scene);

@@ -103,9 +103,7 @@ inline void write_places(const State& state, const std::string& path) {
 
 /// The column before its first step: at the places of the file `start`, or filled at random where that is empty.
 inline State column_state(const Scene& scene, const std::string& start, Grains grains = Grains::alike) {
-  State state;
-  if (scene.domain.order > 1) state.symmetry = Symmetry::rotation(scene.domain.order);
-  state.vessel = Vessel(scene);
+  State state = make_domain(scene);
   if (start.empty())
     fill_at_random(state, scene, std::get<RandomFill>(scene.particles.grains));
   else

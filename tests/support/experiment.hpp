@@ -55,12 +55,7 @@ struct Grain {
 };
 
 inline State make_state(const Scene& scene, const std::vector<Grain>& grains) {
-  State state;
-  if (scene.domain.sides == Sides::periodic) {
-    if (scene.domain.kind == DomainKind::sector) state.symmetry = Symmetry::rotation(scene.domain.order);
-    if (scene.domain.kind == DomainKind::slot) state.symmetry = Symmetry::translation(scene.domain.slot_width);
-  }
-  state.vessel = Vessel(scene);
+  State state = make_domain(scene);
   Particles& p = state.particles;
   p.resize(static_cast<Index>(grains.size()));
   Particles::for_each_field(p, [](const FieldInfo&, auto& field) { std::fill(field.begin(), field.end(), 0); });
