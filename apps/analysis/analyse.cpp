@@ -20,7 +20,7 @@ namespace {
 using SumsOfMoments = std::vector<std::vector<std::unique_ptr<PartSums>>>;  // by moment, by part
 
 /// Cells d wide and 2 d high from the ground to a little above the bed of the first frame.
-FieldGrid make_grid(const AnalysedRun& run, const BedFrame& first) {
+FieldGrid make_grid(const AnalysedRun& run, const Bed& first) {
   const double d = run.diameter;
   std::vector<double> heights;
   for (const BedGrain& g : first.grains)
@@ -45,7 +45,7 @@ FieldGrid make_grid(const AnalysedRun& run, const BedFrame& first) {
   return grid;
 }
 
-double mean_mass(const BedFrame& bed) {
+double mean_mass(const Bed& bed) {
   double sum = 0;
   for (const BedGrain& g : bed.grains) sum += g.mass;
   return bed.grains.empty() ? 1 : sum / static_cast<double>(bed.grains.size());
@@ -58,7 +58,7 @@ struct EmptyCuts {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();  // m, between which centres of the bed lie at any of them
 
-  void note(const std::string& moment, double at, const BedFrame& bed) {
+  void note(const std::string& moment, double at, const Bed& bed) {
     moments += (moments.empty() ? "" : ", ") + moment;
     height = at;
     for (const BedGrain& g : bed.grains) {
@@ -87,7 +87,7 @@ std::string wedges_left_out(const PartRequest& request) {
   std::string text;
   for (const int order : request.orders)
     if (order < request.wedges)
-      text += (text.empty() ? "" : ", ") + std::to_string(order) + " of " + degrees_text(order);
+      text += (text.empty() ? "" : ", ") + std::to_string(order) + " of " + angle_text(order);
   if (text.empty()) return "";
   return "wedges: of the " + std::to_string(request.wedges) + " asked for a vessel has room for " + text +
          " degrees";
@@ -101,7 +101,7 @@ SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, con
   const std::vector<Part> parts = make_parts(run, request.parts);
   SumsOfMoments sums(moments.size());
   for (const std::int64_t number : wanted) {
-    const BedFrame bed = read_bed_frame(run, number);
+    const Bed bed = read_bed(run, number);
     if (sums.front().empty()) {
       const FieldGrid grid = make_grid(run, bed);
       for (auto& of_moment : sums)
@@ -112,7 +112,7 @@ SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, con
     for (std::size_t m = 0; m < moments.size(); ++m) {
       if (!std::binary_search(moments[m].frames.begin(), moments[m].frames.end(), number)) continue;
       for (auto& part : sums[m]) wanting.push_back(part.get());
-      if (moments[m].average) continue;
+      if (moments[m].kind == MomentKind::mean) continue;
       append_slice(pictures.slice, pictures.network, moments[m].name, slice_picture(run, bed));
       const double height = request.cut.value_or(bed.ground + 5 * run.diameter);
       const std::vector<PictureGrain> cut = cut_picture(run, bed, height);
@@ -130,9 +130,10 @@ SumsOfMoments add_up(const AnalysedRun& run, const AnalysisRequest& request, con
 double packing_before_opening(const AnalysedRun& run, const std::vector<Moment>& moments, const SumsOfMoments& sums,
                               std::size_t part) {
   double packing = std::nan(""), latest = -1;
-  const std::optional<double> opening = opening_time(run);
+  const std::optional<double> opening = run.opened();
   for (std::size_t m = 0; opening && m < moments.size(); ++m) {
-    if (moments[m].average || moments[m].end > *opening + 1e-9 || moments[m].end < latest) continue;
+    if (moments[m].kind == MomentKind::mean || moments[m].end > *opening + 1e-9 || moments[m].end < latest)
+      continue;
     latest = moments[m].end;
     packing = sums[m][part]->mean("packing");
   }
@@ -142,28 +143,24 @@ double packing_before_opening(const AnalysedRun& run, const std::vector<Moment>&
 /// Adds what follows from the discharge in the moment's span of time.
 void add_discharge(PartResult& result, const AnalysedRun& run, const Moment& moment,
                    const std::vector<Crossing>& crossings, double packing_before) {
-  const std::optional<double> opening = opening_time(run);
-  if (!moment.average || !run.scene.domain.outlet_height || !opening || moment.end <= *opening) return;
+  const std::optional<double> opening = run.opened();
+  if (moment.kind == MomentKind::instant || !run.scene.domain.outlet_height || !opening || moment.end <= *opening)
+    return;
   const Part& part = result.sums->part();
   const double begin = std::max(moment.begin, *opening);
   const Estimate rate = discharge_rate(crossings, part, begin, moment.end);
-  const auto plain = [](double value) {
-    Estimate e;
-    e.value = value;
-    return e;
-  };
-  result.scalars.push_back({"discharge_rate", "1/s", rate});
+  result.scalars.push_back(scalar("discharge_rate", rate));
   if (orifice_diameter(run.scene) > 0 && result.sums->mean("grains") > 0)
-    result.scalars.push_back({"arched", "", plain(arched(crossings, part, begin, moment.end) ? 1 : 0)});
+    result.scalars.push_back(scalar("arched", arched(crossings, part, begin, moment.end) ? 1 : 0));
   const Estimate beverloo = beverloo_rate(run, packing_before);
-  result.scalars.push_back({"beverloo_low", "1/s", plain(beverloo.low)});
-  result.scalars.push_back({"beverloo_high", "1/s", plain(beverloo.high)});
+  result.scalars.push_back(scalar("beverloo_low", beverloo.low));
+  result.scalars.push_back(scalar("beverloo_high", beverloo.high));
   const double grain = numbers::pi / 6 * std::pow(run.diameter, 3);
   result.plug_speed = rate.value * grain / (result.sums->mean("packing") * run.cross_section());
   if (!(result.plug_speed > 0)) return;
   const std::vector<double> volumes = zone_volumes(*result.sums, result.plug_speed);
   const char* const names[] = {"zone_stagnant", "zone_plug", "zone_converging"};
-  for (std::size_t k = 0; k < volumes.size(); ++k) result.scalars.push_back({names[k], "m3", plain(volumes[k])});
+  for (std::size_t k = 0; k < volumes.size(); ++k) result.scalars.push_back(scalar(names[k], volumes[k]));
 }
 
 }  // namespace
@@ -172,10 +169,10 @@ AnalysisReport analyse(const AnalysisRequest& request) {
   const AnalysedRun run = open_run(request.folder);
   AnalysisReport report;
   report.full_vessel = run.scene.domain.kind == DomainKind::full;
-  report.moments = make_moments(run, request.span);
+  const std::vector<Crossing> crossings = read_crossings(run.folder.series("discharge"), run);
+  report.moments = make_moments(run, crossings, request.span);
   Pictures pictures;
   const SumsOfMoments sums = add_up(run, request, report.moments, pictures);
-  const std::vector<Crossing> crossings = read_crossings(run);
   std::vector<MomentResult> results;
   std::set<std::int64_t> frames;
   for (std::size_t m = 0; m < report.moments.size(); ++m) {

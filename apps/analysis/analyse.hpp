@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/analysis/moments.hpp"
+#include "apps/measure/part.hpp"
 
 namespace wedge {
 

@@ -2,31 +2,25 @@
 // numbers.
 #pragma once
 
-#include <map>
-#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "apps/analysis/bed_frame.hpp"
 #include "apps/analysis/coarse_graining.hpp"
-#include "apps/analysis/discharge.hpp"
 #include "apps/analysis/histogram.hpp"
+#include "apps/measure/bed.hpp"
+#include "apps/measure/part.hpp"
+#include "apps/results/scalar.hpp"
 
 namespace wedge {
 
 /// A quantity whose distribution is taken.
 struct DistributionKind {
-  std::string name, unit;
+  const ResultQuantity* quantity;
   Bins bins;
 };
-/// In the order of `DistributionIndex`.
-std::vector<DistributionKind> distribution_kinds(const AnalysedRun& run, double mean_mass);
-
-/// A number of a part, "name [unit]" with its value.
-struct Scalar {
-  std::string name, unit;
-  Estimate estimate;
-};
+/// Those of the vocabulary, in its order.
+std::vector<DistributionKind> distribution_kinds(const MeasuredDomain& domain, double mean_mass);
 
 /// What a cell of the map carries, per volume of space.
 enum FieldIndex {
@@ -63,8 +57,8 @@ struct LineSums {
 
 class PartSums {
 public:
-  PartSums(const AnalysedRun& run, const Part& part, const FieldGrid& grid, double mean_mass);
-  void add(const BedFrame& bed);
+  PartSums(const MeasuredDomain& domain, const Part& part, const FieldGrid& grid, double mean_mass);
+  void add(const Bed& bed);
 
   const Part& part() const { return part_; }
   int frames() const { return frames_; }
@@ -72,16 +66,17 @@ public:
   /// Of region r (of part().regions) and kind k, summed over frames.
   const Histogram& histogram(std::size_t region, std::size_t kind) const;
   const std::vector<Ring>& rings() const { return rings_; }
-  double ring_width() const { return 0.5 * run_.diameter; }
+  double ring_width() const { return 0.5 * domain_.diameter; }
   /// Per cell, summed over frames: grain_fields and stress_fields numbers.
   const std::vector<double>& fields() const { return fields_; }
   const std::vector<double>& stresses() const { return stresses_; }
   const FieldGrid& grid() const { return grid_; }
   /// Means over frames of what each frame has, and fits over all of them.
   std::vector<Scalar> scalars() const;
-  double mean(const std::string& scalar) const;
-  /// Mean coordination number of bulk grains at arcs of core_arc and more, but not within 2 d of the widest wall;
-  /// nan where there are none.
+  /// One of the means over frames; nan where there is none.
+  double mean(std::string_view scalar) const;
+  /// Mean coordination number of bulk grains at arcs of axis_zone_arc and more, but not within 2 d of the widest
+  /// wall; nan where there are none.
   double outer_cn() const;
   /// What the paper's line says the number of distinct neighbours is short of, as a factor, at r [m]: CN0 / (k arc
   /// + b).
@@ -93,17 +88,12 @@ public:
 private:
   /// Counts a value at r [m] in the regions that hold it; what is no number is not counted.
   void count(double r, std::size_t kind, double value);
-  void add_distributions(const BedFrame& bed);
-  void add_rings(const BedFrame& bed);
-  void add_fields_of(const BedFrame& bed);
-  void add_scalars(const BedFrame& bed);
-  /// Returns the packing fraction of this frame.
-  double add_means(const BedFrame& bed);
-  void add_axis(const BedFrame& bed, double packing);
-  void add_surface(const BedFrame& bed);
-  void note(const std::string& name, const std::string& unit, double value);
+  void add_distributions(const Bed& bed);
+  void add_rings(const Bed& bed);
+  void add_fields_of(const Bed& bed);
+  void add_scalars(const Bed& bed);
 
-  const AnalysedRun& run_;
+  const MeasuredDomain& domain_;
   Part part_;
   FieldGrid grid_;
   std::vector<DistributionKind> kinds_;
@@ -111,12 +101,10 @@ private:
   std::vector<Ring> rings_;
   std::vector<double> fields_, stresses_;
   LineSums distinct_line_;  // the same of distinct neighbours
-  LineSums inner_line_;     // CN against arc, arcs below core_arc
+  LineSums inner_line_;     // CN against arc, arcs below axis_zone_arc
   double outer_grains_ = 0, outer_sum_ = 0;
-  double scatter_ = 0;  // of the angle of repose, last frame, deg
-  double scatter_parts_ = 0;
   struct Mean {
-    std::string name, unit;
+    Scalar last;  // of the last frame, whose interval stands for all: they show the same grains
     double sum = 0, count = 0;
   };
   std::vector<Mean> means_;

@@ -2,10 +2,11 @@
 #include "apps/analysis/moments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
-#include "apps/run/bed_table.hpp"
+#include "core/require.hpp"
 #include "io/files/frame.hpp"
 #include "io/tables/csv.hpp"
 
@@ -14,18 +15,28 @@ namespace {
 
 enum class Start { counts, is_of_the_one_before };
 
-/// Adds the average over the frames in from < t <= to (or from <= t), and the last of them, where there are any. A
-/// frame that comes less than `apart` [s] after another shows the same again and is left out of the average.
-void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan span, Start start, bool average,
-              const std::vector<double>& times, double apart) {
-  const double after = start == Start::counts ? span.from - 2e-9 * std::max(1.0, span.from) : span.from;
-  Moment all{name + "_mean", true, span.from, span.to, {}};
+/// A span of time that moments are made of.
+struct Span {
+  std::string name, stage;
+  MomentRole role;
+  TimeSpan time;
+  Start start;
+};
+
+/// Adds the last frame in from < t <= to (or from <= t) and, where it is wanted, the mean over all of them; nothing
+/// where there is none. A frame that comes less than `apart` [s] after another shows the same again and is left out
+/// of the mean.
+void add_span(std::vector<Moment>& moments, const Span& span, bool mean, const std::vector<double>& times,
+              double apart) {
+  const auto [from, to] = span.time;
+  const double after = span.start == Start::counts ? from - 2e-9 * std::max(1.0, from) : from;
+  Moment all{moment_name(span.name, MomentKind::mean), span.stage, MomentKind::mean, span.role, from, to, {}};
   std::int64_t last = -1;
   double before = -std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < times.size(); ++n) {
     const double time =
         times[n] - 1e-9 * std::max(1.0, times[n]);  // of a step that lands on the mark up to round-off
-    if (time > span.to) break;
+    if (time > to) break;
     if (time <= after) {
       before = times[n];
       continue;
@@ -38,8 +49,25 @@ void add_span(std::vector<Moment>& moments, const std::string& name, TimeSpan sp
   if (last < 0) return;
   if (all.frames.empty()) all.frames.push_back(last);
   const double end = times[static_cast<std::size_t>(last)];
-  moments.push_back({name, false, end, end, {last}});
-  if (average) moments.push_back(all);
+  moments.push_back(
+      {moment_name(span.name, MomentKind::instant), span.stage, MomentKind::instant, span.role, end, end, {last}});
+  if (mean) moments.push_back(all);
+}
+
+/// The window as a span: it has the stage it lies in and the role that all its stages have. Nothing is at rest in a
+/// window: it may lie before the bed came to rest.
+Span window_of(const AnalysedRun& run, const std::vector<Crossing>& crossings, TimeSpan time) {
+  Span window{window_name, "", MomentRole::other, time, Start::counts};
+  std::size_t stages = 0;
+  bool flows = true;
+  for (std::size_t s = 0; s < run.stages.size(); ++s) {
+    const StageRecord& stage = run.stages[s];
+    if (stage.begin >= time.to || stage.end <= time.from) continue;
+    window.stage = ++stages == 1 ? stage.name : "";
+    flows = flows && role_of_stage(run, s, crossings) == MomentRole::flow;
+  }
+  if (stages > 0 && flows) window.role = MomentRole::flow;
+  return window;
 }
 
 }  // namespace
@@ -59,25 +87,35 @@ std::vector<double> frame_times(const RunFolder& folder) {
   return times;
 }
 
-std::vector<Moment> make_moments(const AnalysedRun& run, const std::optional<TimeSpan>& span) {
+MomentRole role_of_stage(const AnalysedRun& run, std::size_t stage, const std::vector<Crossing>& crossings) {
+  const StageRecord& record = run.stages[stage];
+  if (record.how == StageEnd::at_rest) return MomentRole::rest;
+  const std::optional<double> opened = run.opened();
+  const bool open = opened && *opened <= record.begin;
+  const bool leaves = std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& c) {
+    return c.time > record.begin && !(c.time > record.end);
+  });
+  return open || leaves ? MomentRole::flow : MomentRole::other;
+}
+
+std::vector<Moment> make_moments(const AnalysedRun& run, const std::vector<Crossing>& crossings,
+                                 const std::optional<TimeSpan>& span) {
   const std::vector<double> times = frame_times(run.folder);
   const double apart = 0.01 * run.scene.output.frames_every;
   std::vector<Moment> moments;
-  double begin = 0;
-  if (std::filesystem::exists(run.folder.beds())) {
-    const std::vector<StageResult> beds = read_bed_table(run.folder.beds());
-    for (std::size_t s = 0; s < beds.size() && s < run.scene.stages.size(); ++s) {
-      const double end = beds[s].quantities.front().value;
-      const bool timed = std::holds_alternative<UntilTime>(run.scene.stages[s].until);
-      // The start of the run is of its first stage, which then has a frame even if it is of no length.
-      add_span(moments, beds[s].stage, {begin, end}, s == 0 ? Start::counts : Start::is_of_the_one_before, timed,
-               times, apart);
-      begin = end;
-    }
+  for (std::size_t s = 0; s < run.stages.size(); ++s) {
+    const StageRecord& stage = run.stages[s];
+    if (!stage.ended()) continue;
+    // The start of the run is of its first stage, which then has a frame even if it is of no length.
+    const Start start = s == 0 ? Start::counts : Start::is_of_the_one_before;
+    add_span(moments, {stage.name, stage.name, role_of_stage(run, s, crossings), {stage.begin, stage.end}, start},
+             s < run.scene.stages.size() && std::holds_alternative<UntilTime>(run.scene.stages[s].until), times,
+             apart);
   }
   const std::size_t of_stages = moments.size();
   if (span) {
-    add_span(moments, "window", {span->from, std::min(span->to, times.back())}, Start::counts, true, times, apart);
+    add_span(moments, window_of(run, crossings, {span->from, std::min(span->to, times.back())}), true, times,
+             apart);
     if (moments.size() == of_stages)
       throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
                       (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " +

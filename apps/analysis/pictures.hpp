@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "apps/analysis/bed_frame.hpp"
+#include "apps/measure/bed.hpp"
 
 namespace wedge {
 
@@ -26,9 +26,9 @@ struct SlicePicture {
 /// Grains of the bed, images included, within two mean diameters of the half plane in the middle of the sector, and
 /// the contacts between them; of a full vessel or a slot within that distance of the middle plane along x, both
 /// halves.
-SlicePicture slice_picture(const AnalysedRun& run, const BedFrame& bed);
+SlicePicture slice_picture(const MeasuredDomain& domain, const Bed& bed);
 
 /// Grains of the domain within a mean diameter of the height z [m].
-std::vector<PictureGrain> cut_picture(const AnalysedRun& run, const BedFrame& bed, double z);
+std::vector<PictureGrain> cut_picture(const MeasuredDomain& domain, const Bed& bed, double z);
 
 }  // namespace wedge

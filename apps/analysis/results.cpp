@@ -24,7 +24,7 @@ void append_field(std::string& text, double value, int digits = 5) {
 
 /// "moment,part"
 std::string place(const MomentResult& result, const PartResult& part) {
-  return csv_quoted(result.moment.name) + "," + part.sums->part().name;
+  return csv_quoted(result.moment.name) + "," + name_of(part.sums->part().id);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::string scalars_csv(const std::vector<MomentResult>& results) {
   for (const MomentResult& result : results) {
     for (const PartResult& part : result.parts) {
       for (const Scalar& scalar : part.scalars) {
-        text += place(result, part) + "," + scalar.name + "," + scalar.unit;
+        text += place(result, part) + "," + scalar.quantity->name + "," + scalar.quantity->unit;
         for (const double value : {scalar.estimate.value, scalar.estimate.low, scalar.estimate.high})
           append_field(text, value);
         text += '\n';
@@ -98,7 +98,8 @@ std::string distributions_csv(const std::vector<MomentResult>& results) {
           const auto& counts = sums.histogram(r, k).counts();
           if (counts.empty()) continue;
           const DistributionKind& kind = sums.kinds()[k];
-          text += place(result, part) + "," + sums.part().regions[r].name + "," + kind.name + "," + kind.unit;
+          text += place(result, part) + "," + name_of(sums.part().regions[r].id) + "," + kind.quantity->name + "," +
+                  kind.quantity->unit;
           append_field(text, kind.bins.scale);
           append_field(text, kind.bins.step);
           text += "," + std::to_string(counts.begin()->first);
@@ -118,9 +119,10 @@ std::string distributions_csv(const std::vector<MomentResult>& results) {
 }
 
 std::string radial_csv(const std::vector<MomentResult>& results) {
-  std::string text =
-      "moment,part,r [m],arc [d],grains,cn,cn_near,cn_distinct,cn_corrected,vr [m/s],vt [m/s],vz "
-      "[m/s],speed_spread [m/s]\n";
+  std::string text = "moment,part" +
+                     headings({"r", "arc", row_weight, "cn", "cn_near", "cn_distinct", "cn_corrected", "vr", "vt",
+                               "vz", "speed_spread"}) +
+                     "\n";
   for (const MomentResult& result : results) {
     for (const PartResult& part : result.parts) {
       const PartSums& sums = *part.sums;
@@ -132,7 +134,7 @@ std::string radial_csv(const std::vector<MomentResult>& results) {
         const Vec3 v{ring.vr / n, ring.vt / n, ring.vz / n};
         text += place(result, part);
         for (const double value :
-             {r, sums.arc(r), n / sums.frames() * sums.part().copies, cn, ring.cn_near / n, distinct,
+             {r, sums.arc(r), n / sums.frames() * sums.part().pieces, cn, ring.cn_near / n, distinct,
               distinct * sums.correction(r), v.x, v.y, v.z, std::sqrt(std::max(0.0, ring.squares / n - dot(v, v)))})
           append_field(text, value);
         text += '\n';
@@ -144,10 +146,10 @@ std::string radial_csv(const std::vector<MomentResult>& results) {
 
 std::string map_csv(const std::vector<MomentResult>& results) {
   constexpr double fewest = 0.05;  // grains: cells with less are left out
-  std::string text =
-      "moment,part,r [m],z [m],grains,packing,cn,cn_near,cn_distinct,cn_corrected,vr [m/s],vt [m/s],vz [m/s],prr "
-      "[Pa],ptt "
-      "[Pa],pzz [Pa],prz [Pa],zone\n";
+  std::string text = "moment,part" +
+                     headings({"r", "z", row_weight, "packing", "cn", "cn_near", "cn_distinct", "cn_corrected",
+                               "vr", "vt", "vz", "prr", "ptt", "pzz", "prz", "zone"}) +
+                     "\n";
   for (const MomentResult& result : results) {
     for (const PartResult& part : result.parts) {
       const FieldGrid& grid = part.sums->grid();
@@ -174,8 +176,8 @@ std::string map_csv(const std::vector<MomentResult>& results) {
 
 std::string flow_csv(const AnalysedRun& run, const std::vector<Crossing>& crossings, double until) {
   constexpr double every = 0.05;  // s
-  std::string text = "time [s],out,rate [1/s]\n";
-  const std::optional<double> opening = opening_time(run);
+  std::string text = headings({"time", "out", "rate"}).substr(1) + "\n";
+  const std::optional<double> opening = run.opened();
   if (!opening) return text;
   std::size_t k = 0;
   double out = 0;
@@ -183,7 +185,7 @@ std::string flow_csv(const AnalysedRun& run, const std::vector<Crossing>& crossi
   const double slack = 0.02 * every;  // stages begin and end in the first step at or after their time
   for (int row = 1; *opening + row * every <= until + slack; ++row) {
     const double before = out;
-    while (k < crossings.size() && crossings[k].time <= *opening + row * every) ++k, out += run.order;
+    while (k < crossings.size() && crossings[k].time <= *opening + row * every) out += crossings[k++].weight;
     text += number_text(std::round(100 * row * every) / 100);
     append_field(text, out);
     append_field(text, (out - before) / every);
@@ -193,8 +195,8 @@ std::string flow_csv(const AnalysedRun& run, const std::vector<Crossing>& crossi
 }
 
 void append_slice(std::string& grains, std::string& lines, const std::string& moment, const SlicePicture& picture) {
-  if (grains.empty()) grains = "moment,x [m],y [m],z [m],radius [m],cn,vr [m/s],vz [m/s],layer\n";
-  if (lines.empty()) lines = "moment,x1 [m],z1 [m],x2 [m],z2 [m],load [N]\n";
+  if (grains.empty()) grains = "moment" + headings({"x", "y", "z", "radius", "cn", "vr", "vz", "layer"}) + "\n";
+  if (lines.empty()) lines = "moment" + headings({"x1", "z1", "x2", "z2", "load"}) + "\n";
   for (const PictureGrain& p : picture.grains) {
     grains += csv_quoted(moment);
     for (const double value :
@@ -212,7 +214,7 @@ void append_slice(std::string& grains, std::string& lines, const std::string& mo
 }
 
 void append_cut(std::string& text, const std::string& moment, const std::vector<PictureGrain>& grains) {
-  if (text.empty()) text = "moment,x [m],y [m],z [m],radius [m],cn,vz [m/s],layer\n";
+  if (text.empty()) text = "moment" + headings({"x", "y", "z", "radius", "cn", "vz", "layer"}) + "\n";
   for (const PictureGrain& p : grains) {
     text += csv_quoted(moment);
     for (const double value :

@@ -1,13 +1,13 @@
-// results.hpp: the files of an analysis (README.md of this folder has their columns).
+// results.hpp: the files of an analysis (README.md of this folder has their formats).
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "apps/analysis/discharge.hpp"
 #include "apps/analysis/moment_sums.hpp"
 #include "apps/analysis/moments.hpp"
 #include "apps/analysis/pictures.hpp"
+#include "apps/measure/discharge.hpp"
 
 namespace wedge {
 
@@ -22,7 +22,7 @@ struct MomentResult {
   std::vector<PartResult> parts;
 };
 enum class Zone { none, stagnant, plug, converging };
-/// Zone of a cell: see README.md.
+/// Zone of a cell: see `zone` of the vocabulary.
 Zone zone_of(double packing, double vr, double vz, double plug_speed);
 /// Volumes [m3] of the stagnant, plug and converging zones.
 std::vector<double> zone_volumes(const PartSums& sums, double plug_speed);

@@ -79,9 +79,10 @@ Json scalars_object(const PartResult& part) {
   Json object = Json::object();
   for (const Scalar& scalar : part.scalars) {
     const Estimate& e = scalar.estimate;
-    Json& entry = object[scalar.name] = {{"value", short_number(e.value)}};
+    const ResultQuantity& quantity = *scalar.quantity;
+    Json& entry = object[quantity.name] = {{"value", short_number(e.value)}};
     if (std::isfinite(e.low)) entry.update({{"low", short_number(e.low)}, {"high", short_number(e.high)}});
-    entry["unit"] = scalar.unit;
+    entry["unit"] = quantity.unit;
   }
   return object;
 }
@@ -89,13 +90,15 @@ Json scalars_object(const PartResult& part) {
 }  // namespace
 
 std::string summary_json(const AnalysedRun& run, const std::vector<MomentResult>& results) {
-  const std::optional<double> opening = opening_time(run);
+  const std::optional<double> opening = run.opened();
   Json moments = Json::array(), scalars = Json::object();
   for (const MomentResult& result : results) {
     const Moment& m = result.moment;
     const bool after_opening = opening && m.end > *opening;
     moments.push_back({{"name", m.name},
-                       {"kind", m.average ? "mean" : "instant"},
+                       {"stage", m.stage},
+                       {"kind", name_of(m.kind)},
+                       {"role", name_of(m.role)},
                        {"begin_s", short_number(m.begin)},
                        {"end_s", short_number(m.end)},
                        {"frames", m.frames.size()},

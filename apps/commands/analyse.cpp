@@ -5,6 +5,7 @@
 
 #include "apps/analysis/analyse.hpp"
 #include "apps/commands/commands.hpp"
+#include "apps/results/vocabulary.hpp"
 #include "apps/run/threads.hpp"
 #include "core/parallel.hpp"
 
@@ -20,6 +21,11 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
+int command_definitions() {
+  std::cout << definitions_text();
+  return exit_code::ok;
+}
+
 int command_analyse(const AnalyseArguments& arguments) {
   set_thread_count(arguments.threads > 0 ? arguments.threads : usable_threads());
   AnalysisRequest request;
@@ -32,7 +38,7 @@ int command_analyse(const AnalyseArguments& arguments) {
   const AnalysisReport report = analyse(request);
   for (const Moment& m : report.moments) {
     std::cout << m.name << ": ";
-    if (m.average)
+    if (m.kind == MomentKind::mean)
       std::cout << m.frames.size() << (m.frames.size() == 1 ? " frame, " : " frames, ") << time_text(m.begin)
                 << " to ";
     std::cout << time_text(m.end) << " s\n";

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "apps/commands/commands.hpp"
+#include "apps/results/vocabulary.hpp"
 #include "io/scene/diagnostics.hpp"
 #include "io/tables/csv.hpp"
 #include "io/tables/provenance.hpp"
@@ -63,14 +64,11 @@ double wall_time_of(const std::string& text) {
 std::vector<int> orders_of(const std::string& text) {
   std::vector<int> orders;
   for (const CsvField& field : split_csv_line(text)) {
-    double degrees = 0;
-    const bool number = parse_number(field.text, degrees) == NumberError::none && degrees >= 1 && degrees <= 180;
-    const double order = number ? 360 / degrees : 0;
-    if (!number || std::abs(order - std::round(order)) > 1e-6)
+    const std::optional<int> sectors = sectors_of(field.text);
+    if (!sectors)
       throw CLI::ValidationError(
           "--angles", "'" + field.text + "' is not an angle in degrees between 1 and 180 that divides 360");
-    const int whole = static_cast<int>(std::lround(order));
-    if (std::find(orders.begin(), orders.end(), whole) == orders.end()) orders.push_back(whole);
+    if (std::find(orders.begin(), orders.end(), *sectors) == orders.end()) orders.push_back(*sectors);
   }
   return orders;
 }
@@ -208,12 +206,15 @@ private:
   }
   void add_analyse() {
     CLI::App* analyse =
-        command("analyse", "Measure a run into DIR/results (apps/analysis/README.md says what)", [this] {
+        command("analyse", "Measure a run into DIR/results (--definitions says what)", [this] {
+          if (definitions_) return command_definitions();
+          if (analyse_.folder.empty()) return usage("analyse needs DIR, or --definitions");
           if (analyse_.from && analyse_.to && *analyse_.from > *analyse_.to)
             return usage("--from is later than --to");
           return command_analyse(analyse_);
         });
-    folder_option(analyse, analyse_.folder);
+    analyse->add_option("DIR", analyse_.folder, "folder of the run");
+    analyse->add_flag("--definitions", definitions_, "print what every quantity means, and nothing else");
     const auto time_option = [&](const char* name, std::optional<double>& time, const char* meaning) {
       analyse
           ->add_option_function<std::string>(
@@ -226,7 +227,7 @@ private:
     analyse
         ->add_option_function<std::string>(
             "--angles", [this](const std::string& text) { analyse_.orders = orders_of(text); },
-            "sector angles whose cores, and wedges, are wanted of a full vessel (default 90,60,45,30)")
+            "sector angles whose axis zones, and wedges, are wanted of a full vessel (default 90,60,45,30)")
         ->type_name("DEGREES,...");
     analyse
         ->add_option("--wedges", analyse_.wedges,
@@ -296,6 +297,7 @@ private:
   std::vector<std::string> reference_, with_;
   CompareOptions compare_;
   long frame_ = -1;
+  bool definitions_ = false;
 };
 
 }  // namespace

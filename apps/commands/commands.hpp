@@ -41,12 +41,14 @@ int command_export(const ExportArguments&);
 struct AnalyseArguments {
   std::string folder;
   std::optional<double> from, to;  // s
-  std::vector<int> orders;         // sectors in a vessel, whose cores and wedges are wanted; empty: 4, 6, 8, 12
-  int wedges = 0;                  // cut from a full vessel for each of them
-  std::optional<double> cut;       // m
-  int threads = 0;                 // 0: what the container may use
+  std::vector<int> orders;    // sectors in a vessel, whose axis zones and wedges are wanted; empty: 4, 6, 8, 12
+  int wedges = 0;             // cut from a full vessel for each of them
+  std::optional<double> cut;  // m
+  int threads = 0;            // 0: what the container may use
 };
 int command_analyse(const AnalyseArguments&);
+/// Prints what every quantity means.
+int command_definitions();
 
 struct ReportArguments {
   std::vector<std::string> folders;      // of runs, or with runs below them

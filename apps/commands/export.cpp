@@ -12,7 +12,7 @@
 #include "apps/commands/commands.hpp"
 #include "apps/commands/unfold.hpp"
 #include "apps/results/run_folder.hpp"
-#include "apps/run/walls_at.hpp"
+#include "apps/results/stages.hpp"
 #include "apps/setup/setup.hpp"
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
@@ -148,7 +148,7 @@ int command_export(const ExportArguments& arguments) {
       path = path.substr(0, path.rfind('.')) + "_vessel.vtp";
     Domain domain = scene.domain;
     if (arguments.unfold && domain.kind == DomainKind::sector) domain.kind = DomainKind::full, domain.order = 1;
-    write_vessel_vtp(path, walls_at(scene, folder, frame.header.time), domain);
+    write_vessel_vtp(path, vessel_at(scene, read_stages(folder), frame.header.time), domain);
     std::cerr << path << '\n';
   }
   return exit_code::ok;

@@ -15,6 +15,7 @@
 
 #include "apps/commands/commands.hpp"
 #include "apps/commands/embedded_files.hpp"
+#include "apps/results/vocabulary.hpp"
 #include "core/require.hpp"
 #include "io/tables/provenance.hpp"
 
@@ -25,18 +26,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with the scripts, which goes when the page is made.
+/// A folder with the scripts and the vocabulary, which goes when the page is made.
 class Scripts {
 public:
   Scripts() {
     std::string name = (fs::temp_directory_path() / "wedge_report_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw FileError(name + ": cannot make it: " + std::strerror(errno));
     folder_ = name;
-    for (const EmbeddedFile& file : embedded_report()) {
-      std::ofstream out(folder_ / file.name, std::ios::binary);
-      if (!(out << file.text) || !out.flush())
-        throw FileError((folder_ / file.name).string() + ": cannot write it");
-    }
+    for (const EmbeddedFile& file : embedded_report()) write(file.name, file.text);
+    write("vocabulary.json", vocabulary_json());
   }
   Scripts(const Scripts&) = delete;
   Scripts& operator=(const Scripts&) = delete;
@@ -47,20 +45,25 @@ public:
   std::string folder() const { return folder_.string(); }
 
 private:
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream out(folder_ / name, std::ios::binary);
+    if (!(out << text) || !out.flush()) throw FileError((folder_ / name).string() + ": cannot write it");
+  }
+
   fs::path folder_;
 };
 
-enum class Output { ours, none };
+enum class Terminal { ours, none };
 
 /// Runs a program found by PATH and waits for it. Returns its exit code, 128 + signal when one ended it, 127 when
 /// there is no such program.
-int run_program(const std::vector<std::string>& words, Output output) {
+int run_program(const std::vector<std::string>& words, Terminal output) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (output == Output::none)
+  if (output == Terminal::none)
     for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
       posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
   pid_t process = 0;
@@ -81,7 +84,7 @@ std::string python() {
   std::vector<std::string> candidates{"python3", "/usr/bin/python3"};
   if (const char* wish = std::getenv("WEDGE_PYTHON")) candidates = {wish};
   for (const std::string& candidate : candidates)
-    if (run_program({candidate, "-B", "-c", "import numpy, matplotlib"}, Output::none) == 0) return candidate;
+    if (run_program({candidate, "-B", "-c", "import numpy, matplotlib"}, Terminal::none) == 0) return candidate;
   return "";
 }
 
@@ -116,7 +119,7 @@ int command_report(const ReportArguments& arguments) {
   words.emplace_back("--");
   words.insert(words.end(), arguments.folders.begin(), arguments.folders.end());
   std::cout.flush();
-  const int code = run_program(words, Output::ours);
+  const int code = run_program(words, Terminal::ours);
   if (code == 128 + SIGINT || code == exit_code::interrupted) return exit_code::interrupted;
   return code == exit_code::ok || code == exit_code::file ? code : exit_code::internal;
 }

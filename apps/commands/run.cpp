@@ -20,9 +20,9 @@
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/checkpoint.hpp"
-#include "io/tables/provenance.hpp"
 #include "io/scene/names.hpp"
 #include "io/scene/scene_file.hpp"
+#include "io/tables/provenance.hpp"
 #include "kernels/passes/measure.hpp"
 
 namespace wedge {

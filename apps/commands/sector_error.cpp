@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "apps/analysis/discharge.hpp"
+#include "apps/measure/discharge.hpp"
 #include "core/grain_sizes.hpp"
 #include "core/time_scales.hpp"
 #include "io/scene/checks.hpp"

@@ -32,8 +32,8 @@ struct SectorExpectation {
   double stopped_uncertainty = 0;       // its standard error
 };
 
-/// Errors of a bed at rest: a (d / (D theta))^2, the share of the vessel's cross section that a core of some arcs
-/// of d takes; of the discharge rate a (d / (D0 theta))^4; of a pile's angle of repose a / theta, of its
+/// Errors of a bed at rest: a (d / (D theta))^2, the share of the vessel's cross section that an axis zone of some
+/// arcs of d takes; of the discharge rate a (d / (D0 theta))^4; of a pile's angle of repose a / theta, of its
 /// coordination number a / theta^2. Factors a and the share that stops: apps/study/rule.py, from the runs of
 /// apps/study.
 SectorExpectation expected_errors(const SectorSize& sector);

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "apps/comparison/numbers_shown.hpp"
+#include "apps/results/bed_table.hpp"
 #include "apps/results/run_folder.hpp"
 #include "apps/results/text_table.hpp"
-#include "apps/run/bed_table.hpp"
 #include "io/scene/diagnostics.hpp"
 
 namespace wedge {

@@ -18,10 +18,11 @@ std::string bracketed(double low, double high) {
   return "[" + shown(low, digits_of_distance) + ", " + shown(high, digits_of_distance) + "]";
 }
 
-/// "cn, core [m/s]": the region where it is not all, the unit where there is one.
+/// "cn, axis zone [m/s]": the region where it is not all, the unit where there is one.
 std::string title(const ComparisonRow& row) {
   std::string text = row.quantity;
-  if (row.region != "all") text += ", " + row.region;
+  for (const RegionKind region : {RegionKind::axis_zone, RegionKind::rest})
+    if (row.region == name_of(region)) text += std::string(", ") + label_of(region);
   return row.unit.empty() || row.unit == "-" ? text : text + " [" + row.unit + "]";
 }
 
@@ -118,10 +119,11 @@ std::string yardstick_text(const RunSets& sets) {
 std::string sets_text(const RunSets& sets) {
   std::string text = "\nAnalysis: " + domains_text(sets.reference[0], sets.reference.size()) + " and " +
                      domains_text(sets.compared[0], sets.compared.size()) + "\n";
-  if (has_core(sets)) {
-    const double radius = core_radius(sets), d = sets.compared[0].diameter;
-    text += radius > 0 ? "core: r < 4 d / theta = " + shown(radius / d, 3) + " d = " + shown(radius, 4) + " m\n"
-                       : "the scene does not tell the mean diameter: no core and rest of profiles and maps\n";
+  if (has_axis_zone(sets)) {
+    const double radius = axis_zone_radius(sets), d = sets.compared[0].diameter;
+    text += radius > 0 ? "axis zone: r < " + shown(axis_zone_arc, 1) + " d / theta = " + shown(radius / d, 3) +
+                             " d = " + shown(radius, 4) + " m\n"
+                       : "summary.json is missing: no axis zone and rest of profiles and maps\n";
   }
   return text + "yardstick: " + yardstick_text(sets) + "\n";
 }

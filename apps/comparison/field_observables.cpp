@@ -66,15 +66,15 @@ private:
 constexpr std::size_t outside = static_cast<std::size_t>(-1);
 
 /// Where the cells of a region stand in its samples; `outside` for cells of others.
-struct Region {
-  std::string name;
+struct CellsOfRegion {
+  RegionKind kind;
   std::vector<std::size_t> places;
   Eigen::Index size = 0;
 };
 
 template <class Inside>
-Region region_of(const std::string& name, const std::vector<double>& distances, Inside inside) {
-  Region region{name, {}, 0};
+CellsOfRegion cells_of(RegionKind kind, const std::vector<double>& distances, Inside inside) {
+  CellsOfRegion region{kind, {}, 0};
   for (const double r : distances)
     region.places.push_back(inside(r) ? static_cast<std::size_t>(region.size++) : outside);
   return region;
@@ -87,7 +87,7 @@ const FieldColumn* column_of(const FieldResult& table, const std::string& quanti
 }
 
 Sample field_sample(const FieldResult& table, const FieldColumn& column, const std::vector<std::size_t>& cells,
-                    const Region& region) {
+                    const CellsOfRegion& region) {
   Sample sample{Eigen::ArrayXd::Zero(region.size), Eigen::ArrayXd::Zero(region.size)};
   for (std::size_t row = 0; row < cells.size(); ++row) {
     const std::size_t place = region.places[cells[row]];
@@ -102,7 +102,7 @@ Sample field_sample(const FieldResult& table, const FieldColumn& column, const s
 }  // namespace
 
 std::vector<Observable> field_observables(const RunSets& sets, const std::string& moment, Kind kind,
-                                          double core_radius) {
+                                          const std::vector<const ResultQuantity*>& wanted) {
   std::vector<const FieldResult*> tables;
   const auto gathered = gather<FieldResult>(sets, [&](const RunResults& run, const std::string& part) {
     const Fields& fields = kind == Kind::map ? run.cells : run.rings;
@@ -113,27 +113,26 @@ std::vector<Observable> field_observables(const RunSets& sets, const std::string
   });
   if (gathered.compared.empty()) return {};
   const Cells cells(tables, 0.05 * sets.compared[0].diameter);
-  std::vector<Region> regions{region_of("all", cells.distances(), [](double) { return true; })};
-  if (core_radius > 0) {
-    regions.push_back(region_of("core", cells.distances(), [&](double r) { return r < core_radius; }));
-    regions.push_back(region_of("rest", cells.distances(), [&](double r) { return r >= core_radius; }));
+  std::vector<CellsOfRegion> regions{cells_of(RegionKind::all, cells.distances(), [](double) { return true; })};
+  if (const double edge = axis_zone_radius(sets); edge > 0) {
+    regions.push_back(cells_of(RegionKind::axis_zone, cells.distances(), [&](double r) { return r < edge; }));
+    regions.push_back(cells_of(RegionKind::rest, cells.distances(), [&](double r) { return r >= edge; }));
   }
   std::vector<Observable> all;
-  for (const FieldColumn& column : gathered.compared[0]->columns) {
+  for (const ResultQuantity* q : wanted) {
     const bool everywhere = std::all_of(tables.begin(), tables.end(), [&](const FieldResult* table) {
-      return column_of(*table, column.quantity) != nullptr;
+      return column_of(*table, q->name) != nullptr;
     });
-    for (const Region& region : regions) {
+    for (const CellsOfRegion& region : regions) {
       if (!everywhere || region.size == 0) continue;
       Observable o;
       o.kind = kind;
-      o.region = region.name;
-      o.quantity = column.quantity;
-      o.unit = column.unit;
+      o.region = name_of(region.kind);
+      o.quantity = q->name;
       put_samples(
           gathered,
           [&](const FieldResult* table) {
-            return field_sample(*table, *column_of(*table, column.quantity), cells.of(table), region);
+            return field_sample(*table, *column_of(*table, q->name), cells.of(table), region);
           },
           o);
       all.push_back(std::move(o));

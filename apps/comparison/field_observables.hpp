@@ -8,9 +8,9 @@
 
 namespace wedge {
 
-/// Columns of radial.csv (Kind::profile) or map.csv (Kind::map) of a moment; regions core and rest where
-/// `core_radius` [m] is above 0.
+/// The wanted columns of radial.csv (Kind::profile) or map.csv (Kind::map) of a moment, as far as every table has
+/// them, in every region that has cells.
 std::vector<Observable> field_observables(const RunSets& sets, const std::string& moment, Kind kind,
-                                          double core_radius);
+                                          const std::vector<const ResultQuantity*>& wanted);
 
 }  // namespace wedge

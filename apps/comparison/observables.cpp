@@ -17,11 +17,13 @@ Sample scalar_sample(double value) { return {Eigen::ArrayXd::Constant(1, value),
 /// A run's own standard error, of its interval.
 double own_error(const ScalarResult& scalar) { return (scalar.high - scalar.low) / (2 * normal_95); }
 
-Observable scalar(const RunSets& sets, const ResultName& name) {
+Observable scalar_observable(const RunSets& sets, const std::string& moment, const std::string& quantity) {
   Observable o;
   o.kind = Kind::scalar;
+  o.region = name_of(RegionKind::all);
+  o.quantity = quantity;
   const auto gathered = gather<ScalarResult>(sets, [&](const RunResults& run, const std::string& part) {
-    const auto found = run.scalars.find({name.moment, part, name.region, name.quantity});
+    const auto found = run.scalars.find({moment, part, o.region, quantity});
     return found == run.scalars.end() || !std::isfinite(found->second.value) ? nullptr : &found->second;
   });
   for (const auto& run : gathered.reference) {
@@ -32,7 +34,6 @@ Observable scalar(const RunSets& sets, const ResultName& name) {
     o.reference.push_back(run.whole ? scalar_sample(run.whole->value) : scalar_sample(pool_of(wedges).value[0]));
     o.reference_errors.push_back(run.whole ? own_error(*run.whole) : std::nan(""));
     o.wedges.push_back(std::move(wedges));
-    o.unit = run.whole ? run.whole->unit : run.wedges[0]->unit;
   }
   for (const ScalarResult* run : gathered.compared) {
     o.compared.push_back(scalar_sample(run->value));
@@ -68,33 +69,29 @@ Sample distribution_sample(const DistributionResult& distribution, const Eigen::
   return sample;
 }
 
-/// `region` is all, core or rest; files name the last two with the angle.
-Observable distribution(const RunSets& sets, const ResultName& name, const std::string& region) {
+/// In a region of the compared runs' angle.
+Observable distribution_observable(const RunSets& sets, const std::string& moment, const std::string& quantity,
+                                   RegionKind region) {
   Observable o;
   o.kind = Kind::distribution;
-  const std::string named = region == "all" ? region : region + "_" + angle_text(sets.compared[0].order);
+  o.region = name_of(region);
+  o.quantity = quantity;
+  const std::string named = name_of(RegionId{region, sets.compared[0].order});
   std::vector<const DistributionResult*> all;
   const auto gathered = gather<DistributionResult>(sets, [&](const RunResults& run, const std::string& part) {
-    const auto found = run.distributions.find({name.moment, part, named, name.quantity});
+    const auto found = run.distributions.find({moment, part, named, quantity});
     const bool told = found != run.distributions.end() && found->second.counts.sum() > 0;
     if (told) all.push_back(&found->second);
     return told ? &found->second : nullptr;
   });
   if (all.empty()) return o;
-  o.unit = all[0]->unit;
   o.bins = {common_edges(all), all[0]->whole_numbers};
   const auto sample = [&](const DistributionResult* one) { return distribution_sample(*one, o.bins.edges); };
   put_samples(gathered, sample, o);
   return o;
 }
 
-const char* const velocity_names[] = {"vr", "vt", "vz"};
-
-/// Of scalars, distributions and columns.
-bool is_velocity(const std::string& quantity) {
-  return quantity == "speed" || quantity == "speed_spread" ||
-         std::find(std::begin(velocity_names), std::end(velocity_names), quantity) != std::end(velocity_names);
-}
+bool is_velocity(const ResultQuantity& quantity) { return std::string_view(quantity.unit) == "m/s"; }
 
 /// Whether all grains are in bins that reach zero.
 bool beside_zero(const DistributionResult& distribution) {
@@ -112,7 +109,7 @@ Unresolved unresolved_velocities(const std::vector<RunResults>& runs, const std:
   Unresolved found;
   for (const RunResults& run : runs) {
     for (const auto& [name, distribution] : run.distributions) {
-      if (name.moment != moment || !is_velocity(name.quantity)) continue;
+      if (name.moment != moment || !is_velocity(quantity(name.quantity))) continue;
       found.any = true;
       found.all = found.all && beside_zero(distribution);
     }
@@ -123,16 +120,6 @@ Unresolved unresolved_velocities(const std::vector<RunResults>& runs, const std:
 template <class T>
 void append_missing(std::vector<T>& list, const T& entry) {
   if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
-}
-
-/// Quantities of a moment in the order of the files.
-std::vector<std::string> quantities(const std::vector<RunResults>& runs, const std::string& moment,
-                                    std::vector<ResultName> RunResults::*names) {
-  std::vector<std::string> found;
-  for (const RunResults& run : runs)
-    for (const ResultName& name : run.*names)
-      if (name.moment == moment) append_missing(found, name.quantity);
-  return found;
 }
 
 }  // namespace
@@ -148,11 +135,16 @@ Design design_of(const RunSets& sets) {
   return design;
 }
 
-bool has_core(const RunSets& sets) { return !sets.compared[0].slot && sets.compared[0].order > 1; }
+bool has_axis_zone(const RunSets& sets) { return !sets.compared[0].slot && sets.compared[0].order > 1; }
 
-double core_radius(const RunSets& sets) {
-  const double turn = 2 * std::acos(-1.0);
-  return has_core(sets) ? 4 * sets.compared[0].diameter * sets.compared[0].order / turn : 0;
+double axis_zone_radius(const RunSets& sets) {
+  const RunResults& run = sets.compared[0];
+  return has_axis_zone(sets) ? axis_zone_edge(run.order, run.diameter) : 0;
+}
+
+bool is_compared(const ResultQuantity& quantity, const RunSets& sets) {
+  const bool sum = quantity.kind == QuantityKind::extensive || quantity.kind == QuantityKind::per_height;
+  return quantity.compared() && !(sum && sets.reference[0].slot != sets.compared[0].slot);
 }
 
 std::vector<std::string> common_moments(const RunSets& sets) {
@@ -176,25 +168,26 @@ bool velocities_at_rest(const RunSets& sets, const std::string& moment) {
 std::vector<Observable> observables(const RunSets& sets, const std::string& moment) {
   std::vector<Observable> all;
   const bool at_rest = velocities_at_rest(sets, moment);
-  const auto keep = [&](Observable o, const std::string& region, const std::string& quantity) {
-    if (o.reference.empty() || o.compared.empty() || (at_rest && is_velocity(quantity))) return;
+  const auto keep = [&](Observable o) {
+    if (o.reference.empty() || o.compared.empty() || (at_rest && is_velocity(quantity(o.quantity)))) return;
     o.moment = moment;
-    o.region = region;
-    o.quantity = quantity;
+    o.unit = quantity(o.quantity).unit;
     all.push_back(std::move(o));
   };
-  std::vector<std::string> regions{"all"};
-  if (has_core(sets)) regions.insert(regions.end(), {"core", "rest"});
-  for (const std::string& quantity : quantities(sets.compared, moment, &RunResults::scalar_names))
-    keep(scalar(sets, {moment, "", "all", quantity}), "all", quantity);
-  for (const std::string& quantity : quantities(sets.compared, moment, &RunResults::distribution_names))
-    for (const std::string& region : regions)
-      keep(distribution(sets, {moment, "", "", quantity}, region), region, quantity);
-  for (const Kind kind : {Kind::profile, Kind::map})
-    for (Observable& o : field_observables(sets, moment, kind, core_radius(sets))) {
-      const std::string region = o.region, quantity = o.quantity;
-      keep(std::move(o), region, quantity);
-    }
+  const auto compared = [&](ResultTable table) {
+    std::vector<const ResultQuantity*> found;
+    for (const ResultQuantity* q : quantities_in(table))
+      if (is_compared(*q, sets)) found.push_back(q);
+    return found;
+  };
+  std::vector<RegionKind> regions{RegionKind::all};
+  if (has_axis_zone(sets)) regions.insert(regions.end(), {RegionKind::axis_zone, RegionKind::rest});
+  for (const ResultQuantity* q : compared(in_scalars)) keep(scalar_observable(sets, moment, q->name));
+  for (const ResultQuantity* q : compared(in_distributions))
+    for (const RegionKind region : regions) keep(distribution_observable(sets, moment, q->name, region));
+  for (const auto& [kind, table] : {std::pair{Kind::profile, in_profile}, std::pair{Kind::map, in_map}}) {
+    for (Observable& o : field_observables(sets, moment, kind, compared(table))) keep(std::move(o));
+  }
   return all;
 }
 

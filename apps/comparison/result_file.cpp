@@ -16,7 +16,7 @@ Heading heading_of(const std::string& text) {
 }
 
 /// The second field of a line; the file is big, so no other field is looked at.
-std::string part_of(std::string_view line) {
+std::string part_field(std::string_view line) {
   if (line.find('"') != std::string_view::npos) {
     const std::vector<CsvField> fields = split_csv_line(line);
     return fields.size() > 1 ? fields[1].text : "";
@@ -44,10 +44,15 @@ std::size_t ResultFile::column(const std::string& name) const {
   return static_cast<std::size_t>(found - headings_.begin());
 }
 
-bool ResultFile::next(const std::function<bool(const std::string&)>& wanted) {
+bool ResultFile::next(const std::function<bool(PartId)>& wanted) {
   std::string_view line;
   while (next_line(line)) {
-    if (line.empty() || !wanted(part_of(line))) continue;
+    if (line.empty()) continue;
+    const std::string name = part_field(line);
+    const auto part = part_of(name);
+    if (!part) refuse_name(name, "part");
+    part_ = *part;
+    if (!wanted(part_)) continue;
     fields_ = split_csv_line(line);
     if (fields_.size() != headings_.size()) refuse("expected " + std::to_string(headings_.size()) + " fields");
     return true;
@@ -71,6 +76,10 @@ std::vector<double> ResultFile::numbers(std::size_t column) const {
 
 void ResultFile::refuse(const std::string& what) const {
   throw FileError(path_ + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": error: " + what);
+}
+
+void ResultFile::refuse_name(const std::string& name, const std::string& what) const {
+  refuse("'" + name + "' is no " + what + " of this version of wedge; measure the run again: wedge analyse DIR");
 }
 
 bool ResultFile::next_line(std::string_view& line) {

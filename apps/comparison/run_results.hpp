@@ -17,19 +17,17 @@ struct ResultName {
 bool operator<(const ResultName& a, const ResultName& b);
 
 struct ScalarResult {
-  std::string unit;
   double value = 0, low = 0, high = 0;  // nan: not known
 };
 
 struct DistributionResult {
-  std::string unit;
   Eigen::ArrayXd edges;   // one more than counts
   Eigen::ArrayXd counts;  // grains between two edges
   bool whole_numbers = false;
 };
 
 struct FieldColumn {
-  std::string quantity, unit;
+  std::string quantity;
   std::vector<double> values;  // nan: not known
 };
 /// Rows of radial.csv (no heights) or map.csv of one moment and part.
@@ -43,21 +41,17 @@ struct RunResults {
   std::string folder;
   bool slot = false;
   int order = 1;                     // 360 degrees / angle
-  double diameter = 0;               // m, mean; 0: not known
+  double diameter = 0;               // m, measured mean of the grains at the start; 0: not known
   std::vector<std::string> missing;  // files of the analysis that are not there
   std::vector<std::string> moments;  // in the order of the files
   std::vector<std::string> wedges;   // parts that are wedges, of the order asked for
   std::map<ResultName, ScalarResult> scalars;
   std::map<ResultName, DistributionResult> distributions;
-  std::vector<ResultName> scalar_names, distribution_names;  // in the order of the files, of any part (left empty)
   Fields rings, cells;
 };
 
-/// An angle as names of parts and regions have it: "90" of order 4.
-std::string angle_text(int order);
-
 /// Domain and diameter of a run, and which of its files are missing; nothing else yet. Throws SceneError for the
-/// scene.
+/// scene, FileError for a summary.json that is none.
 RunResults read_domain(const std::string& folder);
 /// Whether anything of an analysis is there.
 bool analysed(const RunResults& run);

@@ -34,6 +34,8 @@ public:
     return checkpoints() + "/stage_" + file_name_of(stage) + ".hdf";
   }
   std::string results() const { return path_ + "/results"; }
+  /// One row per stage that has begun: its times and walls (see stages.hpp).
+  std::string stages() const { return results() + "/stages.csv"; }
   /// One row per finished stage: what the bed was like (see bed_table.hpp).
   std::string beds() const { return results() + "/beds.csv"; }
   std::string slice(const std::string& stage) const { return results() + "/slice_" + file_name_of(stage) + ".svg"; }

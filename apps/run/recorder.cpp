@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/checkpoint.hpp"
 #include "io/files/frame.hpp"
 #include "io/scene/scene_file.hpp"
-#include "io/tables/csv.hpp"
 #include "io/tables/file_series.hpp"
 #include "kernels/passes/measure.hpp"
 
@@ -212,22 +210,6 @@ std::string Recorder::record_crash(const State& state) {
   info.number = -1;
   write_particle_frame(path, state, info);
   return path;
-}
-
-std::vector<double> Recorder::crossings_since(double from) const {
-  std::vector<double> times;
-  std::ifstream file(folder_.series("discharge"));
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    const auto fields = split_csv_line(line);
-    double removed = 0, crossed = 0;
-    if (fields.size() > 1 && parse_number(fields[0].text, removed) == NumberError::none &&
-        parse_number(fields[1].text, crossed) == NumberError::none && removed >= from)
-      times.push_back(crossed);
-  }
-  std::sort(times.begin(), times.end());
-  return times;
 }
 
 }  // namespace wedge

@@ -36,8 +36,6 @@ public:
   /// The grains as they are when the physics broke down: frames/crash_particles.hdf.
   std::string record_crash(const State& state);
 
-  /// Times [s] at which the grains discharged since `from` [s] crossed the outlet.
-  std::vector<double> crossings_since(double from) const;
   /// The time [s] of the next row or frame of the schedule; infinity when there is none.
   double next_due(const RunMemory& memory) const;
   double series_every() const { return series_every_; }

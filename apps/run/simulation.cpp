@@ -1,19 +1,19 @@
-// simulation.cpp: the stages of a run: begin, step until done, end; and saving whatever happens.
+// simulation.cpp: the stages of a run: begin, step until done, end.
 #include "apps/run/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "apps/measure/stage_end.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/run/rest.hpp"
+#include "apps/run/slice_svg.hpp"
 #include "apps/setup/setup.hpp"
 #include "core/require.hpp"
 #include "io/files/checkpoint.hpp"
-#include "io/tables/provenance.hpp"
 #include "io/scene/diagnostics.hpp"
 #include "kernels/passes/measure.hpp"
 
@@ -23,7 +23,6 @@ namespace {
 constexpr std::int64_t look_every = 20;    // steps between looks at the wall clock, at signals and at rest
 constexpr std::int64_t judge_every = 500;  // steps between looks at the energy budget
 constexpr double report_every = 1;         // s of wall time between rewrites of progress.json
-constexpr double least_to_judge = 1;       // s of wall time from which on a rate or a forecast is told
 
 constexpr double deepest_insertion = 0.1;  // radii: how far a wall that a stage adds may reach into a grain
 
@@ -117,7 +116,22 @@ Simulation Simulation::resume(Scene scene, const RunFolder& folder) {
     s.recorder_->keep_stage(s.scene_->stages[static_cast<std::size_t>(s.memory_.stage) - 1].name, s.state_->step);
   if (s.memory_.stage > 0) s.results_ = read_bed_table(folder.beds());
   s.results_.resize(std::min(s.results_.size(), static_cast<std::size_t>(s.memory_.stage)));
+  s.take_up_stages();
   return s;
+}
+
+/// The record of stages as it was at the checkpoint: one that runs again has not ended.
+void Simulation::take_up_stages() {
+  const auto begun = static_cast<std::size_t>(memory_.stage) + (memory_.stage_begun ? 1 : 0);
+  if (begun == 0) return;
+  stages_ = read_stages(folder_);
+  if (stages_.size() < begun) throw FileError(folder_.stages() + ": lacks a stage that the checkpoint knows");
+  stages_.resize(begun);
+  if (memory_.stage_begun) {
+    stages_.back().end = std::numeric_limits<double>::quiet_NaN();
+    stages_.back().how = StageEnd::running;
+  }
+  write_stages(folder_.stages(), stages_);
 }
 
 RunEnd Simulation::run(const RunLimits& limits) {
@@ -136,29 +150,6 @@ RunEnd Simulation::run(const RunLimits& limits) {
     const auto last = newest_valid_checkpoint(folder_.checkpoints());
     fail(error, "Last good checkpoint: " + (last ? *last : std::string("none is left")));
   }
-}
-
-/// Leaves the grains as they are and the reason in run.log and progress.json, then throws on with both.
-void Simulation::fail(const PhysicsError& error, const std::string& remedy) {
-  const std::string text = std::string(error.what()) +
-                           "\nThe grains at that moment: " + recorder_->record_crash(*state_) + "\n" + remedy;
-  report("failed", text.substr(0, text.find('\n')));
-  log("physics error: " + text);
-  throw PhysicsError(text);
-}
-
-/// A file could not be written: says so where it can, then throws on with what to do.
-void Simulation::fail(const FileError& error) {
-  std::string text = error.what();
-  try {
-    const auto last = newest_valid_checkpoint(folder_.checkpoints());
-    text += "\nLast good checkpoint: " + (last ? *last : std::string("none is left"));
-    if (last) text += "\nWhen the cause is gone, go on with: wedge resume " + folder_.path();
-    log("file error: " + text);
-    report("failed", error.what());
-  } catch (const FileError&) {  // the disk that is full is this one
-  }
-  throw FileError(text);
 }
 
 RunEnd Simulation::run_stages(const RunLimits& limits) {
@@ -181,7 +172,8 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
   stage_time_begin_ = state_->time;
   if (!memory_.stage_begun) begin_stage();
   recorder_->record_due(*state_, *step_, memory_);
-  while (!stage_is_over()) {
+  std::optional<StageEnd> end;
+  while (!(end = stage_end())) {
     step_->advance(*state_, dt_, steps_to_look(limits));
     if (!state_->departures.empty()) recorder_->record_departures(*state_);
     recorder_->record_due(*state_, *step_, memory_);
@@ -196,7 +188,7 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
     if (limits.wall_time > 0 && session_seconds_ >= limits.wall_time) return RunEnd::wall_time;
   }
   between_steps();
-  end_stage();
+  end_stage(*end);
   return std::nullopt;
 }
 
@@ -227,6 +219,12 @@ void Simulation::begin_stage() {
   memory_.stage_start_out = state_->taken_out;
   memory_.quiet_since = -1;
   memory_.stage_wall_seconds = 0;
+  StageRecord record;
+  record.name = stage().name;
+  record.begin = state_->time;
+  record.walls = walls_present(state_->vessel);
+  stages_.push_back(std::move(record));
+  write_stages(folder_.stages(), stages_);
   std::ostringstream text;
   text << "stage " << stage().name << " begins at " << state_->time << " s with " << state_->particles.count()
        << " grains, step " << dt_ << " s";
@@ -234,13 +232,18 @@ void Simulation::begin_stage() {
   line_.note(text.str());
 }
 
-void Simulation::end_stage() {
+void Simulation::end_stage(StageEnd how) {
   const std::string name = stage().name;
   judge_budget();
   recorder_->record_series(*state_, *step_, memory_);
   recorder_->record_frame(*state_, *step_, memory_);
-  results_.push_back(measure_bed(*state_, *scene_, name, discharge_rate(), memory_.stage_wall_seconds));
+  const MeasuredDomain domain = describe_domain(*scene_, state_->symmetry, state_->mean_diameter);
+  results_.push_back(measure_stage_end(*state_, domain, {name, memory_.stage_start, memory_.stage_wall_seconds},
+                                       read_crossings(folder_.series("discharge"), domain)));
   write_bed_table(folder_.beds(), results_);
+  stages_.back().end = state_->time;
+  stages_.back().how = how;
+  write_stages(folder_.stages(), stages_);
   std::ostringstream text;
   text << name << " ends at " << state_->time << " s after " << duration_text(memory_.stage_wall_seconds)
        << " of wall time: " << state_->particles.count() << " grains inside, " << state_->taken_out << " out";
@@ -257,14 +260,21 @@ void Simulation::end_stage() {
   recorder_->keep_stage(name, state_->step);
 }
 
-bool Simulation::stage_is_over() {
+/// How the present stage has just ended; nothing while it goes on.
+std::optional<StageEnd> Simulation::stage_end() {
   const double in_stage = state_->time - memory_.stage_start;
-  if (stage().at_most > 0 && in_stage >= stage().at_most - 0.5 * dt_) return true;
-  if (const auto* time = std::get_if<UntilTime>(&stage().until)) return in_stage >= time->duration - 0.5 * dt_;
-  if (std::holds_alternative<UntilEmpty>(stage().until)) return state_->particles.count() == 0;
-  if (const auto* out = std::get_if<UntilDischarged>(&stage().until))
-    return state_->taken_out - memory_.stage_start_out >= out->count;
-  return at_rest();
+  const bool out_of_time = stage().at_most > 0 && in_stage >= stage().at_most - 0.5 * dt_;
+  const auto when = [](bool over, StageEnd how) { return over ? std::optional<StageEnd>(how) : std::nullopt; };
+  std::optional<StageEnd> end;
+  if (const auto* time = std::get_if<UntilTime>(&stage().until))
+    end = when(in_stage >= time->duration - 0.5 * dt_, StageEnd::time);
+  else if (std::holds_alternative<UntilEmpty>(stage().until))
+    end = when(state_->particles.count() == 0, StageEnd::empty);
+  else if (const auto* out = std::get_if<UntilDischarged>(&stage().until))
+    end = when(state_->taken_out - memory_.stage_start_out >= out->count, StageEnd::discharged);
+  else
+    end = when(out_of_time ? came_to_rest() : at_rest(), StageEnd::at_rest);
+  return end ? end : when(out_of_time, StageEnd::at_most);
 }
 
 /// Whether the bed has been quiet for as long as the criterion asks.
@@ -285,15 +295,6 @@ bool Simulation::at_rest() {
     return false;
   }
   return came_to_rest();
-}
-
-/// Grains per second through the outlet [1/s], of this domain: between the moments when 10 % and 90 % of the
-/// stage's grains had crossed.
-double Simulation::discharge_rate() const {
-  const std::vector<double> t = recorder_->crossings_since(memory_.stage_start);
-  if (t.size() < 20) return 0;
-  const std::size_t low = t.size() / 10, high = t.size() - 1 - t.size() / 10;
-  return t[high] > t[low] ? static_cast<double>(high - low) / (t[high] - t[low]) : 0;
 }
 
 void Simulation::between_steps() {
@@ -325,58 +326,6 @@ void Simulation::judge_budget() {
   memory_.budget_doubted = true;
   log("warning: " + text.str() + ": the time step of " + short_number(dt_) + " s is too long");
   line_.note("warning: " + text.str() + ": the time step of " + short_number(dt_) + " s is too long");
-}
-
-void Simulation::save(const char* what) {
-  if (!state_->departures.empty()) recorder_->record_departures(*state_);
-  recorder_->record_checkpoint(*state_, memory_);
-  last_checkpoint_ = session_seconds_;
-  std::ostringstream text;
-  text << what << ": checkpoint at step " << state_->step << ", " << state_->time << " s";
-  log(text.str());
-}
-
-/// Wall time still to go in this stage and, where they are of known length, the next ones [s]; negative: not known.
-double Simulation::eta() const {
-  const double done = state_->time - stage_time_begin_, spent = session_seconds_ - stage_session_begin_;
-  if (done <= 0 || spent < least_to_judge) return -1;
-  double left = 0;
-  for (auto n = static_cast<std::size_t>(memory_.stage); n < scene_->stages.size(); ++n) {
-    const auto* time = std::get_if<UntilTime>(&scene_->stages[n].until);
-    if (!time) return -1;
-    left +=
-        time->duration - (n == static_cast<std::size_t>(memory_.stage) ? state_->time - memory_.stage_start : 0);
-  }
-  return left * spent / done;
-}
-
-void Simulation::report(const char* run_state, const std::string& message) {
-  last_report_ = session_seconds_;
-  const bool over = finished();
-  Progress p;
-  p.state = run_state;
-  p.stage = over ? scene_->stages.back().name : stage().name;
-  p.stage_count = static_cast<int>(scene_->stages.size());
-  p.stage_number = std::min(static_cast<int>(memory_.stage) + 1, p.stage_count);
-  p.time = state_->time;
-  p.step = state_->step;
-  p.time_step = dt_;
-  p.grains = state_->particles.count();
-  p.discharged = state_->taken_out;
-  p.wall_seconds = memory_.wall_seconds;
-  p.eta_seconds = over ? 0 : eta();
-  p.message = message;
-  write_progress(folder_.progress(), p);
-  if (session_seconds_ < least_to_judge) return;  // of so short a time a rate would say little
-  const double spent = session_seconds_ - stage_session_begin_;
-  const double steps = dt_ > 0 ? (state_->time - stage_time_begin_) / dt_ : 0;
-  line_.show(p, spent >= least_to_judge ? steps * state_->particles.count() / spent : 0, session_seconds_);
-}
-
-void Simulation::log(const std::string& line) {
-  std::ofstream file(folder_.log(), std::ios::app);
-  file << line << '\n';
-  if (!file.flush()) throw FileError(folder_.log() + ": cannot write");
 }
 
 }  // namespace wedge

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/results/bed_table.hpp"
 #include "apps/results/run_folder.hpp"
-#include "apps/run/bed_table.hpp"
+#include "apps/results/stages.hpp"
 #include "apps/run/progress_line.hpp"
 #include "apps/run/recorder.hpp"
 #include "apps/run/run_memory.hpp"
@@ -54,11 +55,11 @@ private:
   std::optional<RunEnd> run_stage(const RunLimits& limits);
   int steps_to_look(const RunLimits& limits) const;
   void begin_stage();
-  void end_stage();
-  bool stage_is_over();
+  void end_stage(StageEnd how);
+  void take_up_stages();
+  std::optional<StageEnd> stage_end();
   bool at_rest();
   bool came_to_rest() const;
-  double discharge_rate() const;
   void between_steps();
   [[noreturn]] void fail(const FileError& error);
   void judge_budget();
@@ -75,6 +76,7 @@ private:
   std::unique_ptr<Recorder> recorder_;
   RunMemory memory_;
   std::vector<StageResult> results_;
+  std::vector<StageRecord> stages_;  // that have begun
   RestCriterion rest_;
   double dt_ = 0;
   ProgressLine line_;

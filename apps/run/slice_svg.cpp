@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/bed_table.hpp"
+#include "apps/run/slice_svg.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/scene/diagnostics.hpp"
 #include "io/tables/csv.hpp"

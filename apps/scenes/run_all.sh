@@ -55,8 +55,8 @@ echo "|---|---|---|---|---|---|---|---|---|---|---|"
 for angle in $angles; do
   run=$folder/hopper_$angle
   printf '| %s | %s | %.3f | %.2f | %.0f | %.0f | %s |\n' "$(name "$angle")" "$(common "$run")" \
-    "$(cell "$run" settle "packing fraction")" "$(cell "$run" settle "coordination number")" \
-    "$(cell "$run" discharge "grains discharged")" "$(cell "$run" discharge "discharge rate [1/s]")" "$(residual "$run")"
+    "$(cell "$run" settle packing)" "$(cell "$run" settle cn)" \
+    "$(cell "$run" discharge grains_discharged)" "$(cell "$run" discharge "discharge_rate [1/s]")" "$(residual "$run")"
 done
 echo
 echo "| sector | grains | wall time | million steps/s | memory [MB] | disk [MB] | grains left | CN | angle of repose [deg] | residual [%] |"
@@ -64,6 +64,6 @@ echo "|---|---|---|---|---|---|---|---|---|---|"
 for angle in $angles; do
   run=$folder/sandpile_$angle
   printf '| %s | %s | %.0f | %.2f | %.1f | %s |\n' "$(name "$angle")" "$(common "$run")" \
-    "$(cell "$run" collapse grains)" "$(cell "$run" collapse "coordination number")" \
-    "$(cell "$run" collapse "angle of repose [deg]")" "$(residual "$run")"
+    "$(cell "$run" collapse grains)" "$(cell "$run" collapse cn)" \
+    "$(cell "$run" collapse "angle_of_repose [deg]")" "$(residual "$run")"
 done

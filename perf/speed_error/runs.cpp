@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "apps/run/bed_table.hpp"
+#include "apps/measure/stage_end.hpp"
 #include "apps/run/rest.hpp"
 #include "apps/setup/setup.hpp"
 #include "core/require.hpp"
@@ -98,16 +98,21 @@ double quantity(const StageResult& bed, const std::string& name) {
   return not_known;
 }
 
+/// The bed as it is at the end of a stage.
+StageResult measured(const State& state, const Scene& scene) {
+  return measure_stage_end(state, describe_domain(scene, state.symmetry, state.mean_diameter), {}, {});
+}
+
 /// What does not depend on how the bed is discharged.
 void measure_settled(const Course& c, Result& result) {
   const State& state = c.state;
-  const StageResult bed = measure_bed(state, c.scene, "settle", 0, 0);
-  const double weight = quantity(bed, "weight of all grains");
-  result["packing"] = quantity(bed, "packing fraction");
-  result["coordination"] = quantity(bed, "coordination number");
+  const StageResult bed = measured(state, c.scene);
+  const double weight = quantity(bed, "weight_of_grains");
+  result["packing"] = quantity(bed, "packing");
+  result["coordination"] = quantity(bed, "cn");
   result["floor"] = 0;
   for (const char* wall : {"floor", "plug", "plate", "gate"}) {
-    const double load = quantity(bed, std::string("load on ") + wall);
+    const double load = quantity(bed, wall_load_name(wall));
     if (std::isfinite(load)) result["floor"] += load / weight;
   }
   const Particles& p = state.particles;
@@ -151,9 +156,9 @@ void discharge_hopper(Course& c, Size size, Result& result) {
 void collapse_pile(Course& c, Result& result) {
   c.open();
   result["pile_rests"] = c.settle(1.0);
-  const StageResult bed = measure_bed(c.state, c.scene, "collapse", 0, 0);
+  const StageResult bed = measured(c.state, c.scene);
   result["left"] = quantity(bed, "grains");
-  result["angle"] = quantity(bed, "angle of repose");
+  result["angle"] = quantity(bed, "angle_of_repose");
 }
 
 constexpr double longest_settling = 1.0;  // s

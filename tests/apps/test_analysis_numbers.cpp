@@ -11,9 +11,9 @@ using namespace wedge;
 using namespace wedge::test;
 
 TEST_CASE("The angle of a cone is found, with no scatter over azimuth, and of a cone of two slopes with theirs") {
-  const AnalysedRun run = vessel();
+  const MeasuredDomain run = vessel();
   const auto cone = [&](double left, double right) {
-    BedFrame bed;
+    Bed bed;
     for (int i = -64; i <= 64; ++i) {
       for (int j = -64; j <= 64; ++j) {
         BedGrain g;
@@ -36,7 +36,7 @@ TEST_CASE("The angle of a cone is found, with no scatter over azimuth, and of a 
   const PartSums uneven = sums_of(run, cone(20, 30));
   CHECK(number(uneven, "angle_of_repose_scatter") == Approx(5 * std::sqrt(12.0 / 11)).epsilon(0.03));
   for (const Scalar& s : uneven.scalars()) {
-    if (s.name != "angle_of_repose") continue;
+    if (s.quantity != &quantity("angle_of_repose")) continue;
     CHECK(s.estimate.value == Approx(25).epsilon(0.02));
     CHECK(s.estimate.high - s.estimate.low == Approx(2 * 1.96 * 5.22 / std::sqrt(12.0)).epsilon(0.03));
   }
@@ -56,7 +56,7 @@ TEST_CASE("What lies beyond a gap or a step up is not of the flank") {
 }
 
 TEST_CASE("Mass at the axis: grains inside d and 2 d over the height of the bulk") {
-  const AnalysedRun run = vessel(4);
+  const MeasuredDomain run = vessel(4);
   std::vector<Grain> grains;
   for (int k = 0; k <= 100; ++k) {
     const double z = (5 + 0.4 * k) * d;
@@ -64,7 +64,7 @@ TEST_CASE("Mass at the axis: grains inside d and 2 d over the height of the bulk
     grains.push_back({R, {1.2 * d, 0.8 * d, z + 0.1 * d}, {}, {}});  // r = 1.44 d
     grains.push_back({R, {9 * d, 3 * d, z + 0.2 * d}, {}, {}});
   }
-  BedFrame bed;
+  Bed bed;
   for (const Grain& g : grains) {
     BedGrain b;
     b.position = g.x;
@@ -72,6 +72,7 @@ TEST_CASE("Mass at the axis: grains inside d and 2 d over the height of the bulk
     b.azimuth = std::atan2(g.x.y, g.x.x);
     b.radius = R;
     b.mass = mass;
+    b.weight = 4;
     b.in_bed = b.in_bulk = true;
     bed.grains.push_back(b);
   }
@@ -102,8 +103,8 @@ TEST_CASE(
 }
 
 TEST_CASE("The paper's correction: CN0 over the line below an arc of 4 d, one above") {
-  const AnalysedRun run = vessel(8);  // 45 degrees
-  BedFrame bed;
+  const MeasuredDomain run = vessel(8);  // 45 degrees
+  Bed bed;
   for (const double r : {1.0, 12.0, 14.0}) {
     BedGrain g;
     g.r = r * d;
@@ -134,36 +135,36 @@ TEST_CASE("Bins are even near zero, of even ratio far away, and hold what lies b
   CHECK(whole.edge(5) == 4.5);
 }
 
-TEST_CASE("Regions and wedges: core and rest at 4 d over the angle, wedges side by side around the vessel") {
-  const AnalysedRun full = vessel(), sector = vessel(4);
+TEST_CASE("Regions and wedges: axis zone and rest at 4 d over the angle, wedges side by side around the vessel") {
+  const MeasuredDomain full = vessel(), sector = vessel(4);
   const std::vector<Part> own = make_parts(sector, {{4, 8}, 3});
   REQUIRE(own.size() == 1);  // wedges are cut from full vessels
   REQUIRE(own[0].regions.size() == 3);
-  CHECK(own[0].regions[1].name == "core_90");
+  CHECK(name_of(own[0].regions[1].id) == "axis_zone_n4");
   CHECK(own[0].regions[1].to == Approx(4 * d / (pi / 2)));
   CHECK(own[0].regions[2].holds(4 * d));
   const std::vector<Part> parts = make_parts(full, {{4, 8, 24}, 4});
   REQUIRE(parts.size() == 1 + 12);
   CHECK(parts[0].regions.size() == 1 + 2 * 3);
-  CHECK(parts[5].name == "wedge_45_0");
-  CHECK(parts[9].regions.size() == 3);  // 15 degrees: the core ends at 15.3 d of 20
+  CHECK(name_of(parts[5].id) == "wedge_n8_0");
+  CHECK(parts[9].regions.size() == 3);  // 15 degrees: the axis zone ends at 15.3 d of 20
   for (int k = 0; k < 1000; ++k) {      // the four wedges of 90 degrees hold every azimuth once
     int held = 0;
     for (int w = 1; w <= 4; ++w) held += parts[static_cast<std::size_t>(w)].holds(2 * pi * k / 1000);
     CHECK(held == 1);
   }
-  // 10 d wide, thinner than 4 d over 11.5 degrees: all core.
+  // 10 d wide, thinner than 4 d over 11.5 degrees: all axis zone.
   Scene narrow = sector.scene;
   for (WallDescription& wall : narrow.walls)
     for (Eigen::Vector2d& point : wall.profile) point.x() *= 0.1;
-  CHECK(make_parts(describe_run(RunFolder("nowhere"), narrow, d), {}).front().regions.size() == 2);
+  CHECK(make_parts(describe_domain(narrow, make_domain(narrow).symmetry, d), {}).front().regions.size() == 2);
 }
 
 TEST_CASE("Discharge: rate of a steady stream, of wedges, its interval, arches, and Beverloo's law") {
-  const AnalysedRun run = vessel();
+  const MeasuredDomain run = vessel();
   const std::vector<Part> parts = make_parts(run, {{4}, 4});
   std::vector<Crossing> stream;
-  for (int k = 0; k < 2400; ++k) stream.push_back({1 + (k + 0.5) / 2400, std::fmod(2.4 * k, 2 * pi)});
+  for (int k = 0; k < 2400; ++k) stream.push_back({1 + (k + 0.5) / 2400, std::fmod(2.4 * k, 2 * pi), 1});
   const Estimate rate = discharge_rate(stream, parts[0], 1, 2);
   CHECK(rate.value == Approx(2400));
   CHECK(rate.high - rate.low < 30);
@@ -174,11 +175,11 @@ TEST_CASE("Discharge: rate of a steady stream, of wedges, its interval, arches, 
   // Grains that come in bursts of 100: sqrt(blocks) says what the interval is.
   std::vector<Crossing> bursts;
   for (int k = 0; k < 16; ++k)
-    for (int g = 0; g < (k % 2 == 0 ? 100 : 200); ++g) bursts.push_back({(k + 0.5) / 16, 0});
+    for (int g = 0; g < (k % 2 == 0 ? 100 : 200); ++g) bursts.push_back({(k + 0.5) / 16, 0, 1});
   const Estimate uneven = discharge_rate(bursts, parts[0], 0, 1);
   CHECK(uneven.value == Approx(2400));
   CHECK(uneven.high - uneven.low == Approx(2 * 1.96 * 50 * 4).epsilon(0.1));  // 16 blocks, deviation 50 each
-  AnalysedRun open = run;
+  MeasuredDomain open = run;
   open.scene.stages = {Stage{}};
   open.scene.stages[0].remove = {"plug"};
   CHECK(orifice_diameter(open.scene) == Approx(8 * d));
@@ -201,12 +202,12 @@ TEST_CASE("Zones by speed against that of a plug as wide as the vessel") {
 }
 
 TEST_CASE("Pictures: a sector's slice lies in its middle, with images at the axis, and a cut is a layer") {
-  const AnalysedRun run = vessel(4);
+  const MeasuredDomain run = vessel(4);
   const double c = std::cos(pi / 4);
   const std::vector<Grain> grains = {{R, {10 * c * d, 10 * c * d, 5 * d}, {}, {}},  // in the middle
                                      {R, {10 * d, 0.3 * d, 5 * d}, {}, {}},         // near a face
                                      {R, {1.5 * d, 0.1 * d, 9 * d}, {}, {}}};       // near the axis: images too
-  const BedFrame bed = bed_of(run, grains);
+  const Bed bed = bed_of(run, grains);
   const SlicePicture slice = slice_picture(run, bed);
   REQUIRE(slice.grains.size() ==
           3);                    // the middle one, and two copies of the one near the axis on the half plane's side

@@ -13,7 +13,7 @@ namespace {
 constexpr double thickness = 3.998 * d;  // four grains across it touch one another
 
 /// 40 d wide, periodic along y, open over 8 d.
-AnalysedRun slot() {
+MeasuredDomain slot() {
   Scene scene = hopper_material();
   scene.domain.kind = DomainKind::slot;
   scene.domain.slot_width = thickness;
@@ -23,11 +23,11 @@ AnalysedRun slot() {
   add_wall(scene, "floor_left", {{-20 * d, 0}, {-4 * d, 0}});
   add_wall(scene, "floor_right", {{4 * d, 0}, {20 * d, 0}});
   add_wall(scene, "plug", {{-4 * d, 0}, {0, 0}, {4 * d, 0}});
-  return describe_run(RunFolder("nowhere"), scene, d);
+  return describe_domain(scene, make_domain(scene).symmetry, d);
 }
 
 /// Cells d wide and high over the whole slot and a margin outside it.
-PartSums slot_sums(const AnalysedRun& run, const BedFrame& bed) {
+PartSums slot_sums(const MeasuredDomain& run, const Bed& bed) {
   FieldGrid grid = wide_grid(run);
   grid.left = run.left - 5 * d;
   grid.columns = 50;
@@ -40,7 +40,7 @@ PartSums slot_sums(const AnalysedRun& run, const BedFrame& bed) {
 }  // namespace
 
 TEST_CASE("Slot: a sheet across it closes through the periodic faces: three neighbours at its edges, four inside") {
-  const AnalysedRun run = slot();
+  const MeasuredDomain run = slot();
   std::vector<Grain> grains;
   const int high = 5;
   for (int k = 0; k < high; ++k)
@@ -54,12 +54,12 @@ TEST_CASE("Slot: a sheet across it closes through the periodic faces: three neig
 }
 
 TEST_CASE("Slot: velocities are along x, y and z, and rings are pairs of bars at both sides of the middle") {
-  const AnalysedRun run = slot();
+  const MeasuredDomain run = slot();
   std::vector<Grain> grains;
   for (int k = 0; k < 12; ++k)
     for (const int side : {-1, 1})
       grains.push_back({R, {side * 7.25 * d, 0.3 * d * k, (5 + 1.5 * k) * d}, {side * 0.5, 0.2, -0.1}, {}});
-  const BedFrame bed = bed_of(run, grains);
+  const Bed bed = bed_of(run, grains);
   for (std::size_t i = 0; i < grains.size(); ++i) {
     CHECK(bed.grains[i].velocity.x == grains[i].v.x);
     CHECK(bed.grains[i].velocity.y == 0.2);
@@ -78,7 +78,7 @@ TEST_CASE("Slot: velocities are along x, y and z, and rings are pairs of bars at
 }
 
 TEST_CASE("Slot: coarse graining of one grain is its Gaussian averaged over the width, and keeps volume") {
-  const AnalysedRun run = slot();
+  const MeasuredDomain run = slot();
   const Vec3 place{-3 * d, d, 20 * d};
   const PartSums sums = slot_sums(run, bed_of(run, {{R, place, {}, {}}}));
   const double volume = mass / 3800;
@@ -93,7 +93,7 @@ TEST_CASE("Slot: coarse graining of one grain is its Gaussian averaged over the 
 }
 
 TEST_CASE("Slot: the pressure of a contact is its load times branch along x and y, none turned") {
-  const AnalysedRun run = slot();
+  const MeasuredDomain run = slot();
   // One contact along (0.6, 0, 0.8) left of the middle, one along y through the faces.
   const std::vector<Grain> grains = {{R, {-8 * d, 0.5 * d, 20 * d}, {}, {}},
                                      {R, {-7.4 * d, 0.5 * d, 20.8 * d}, {}, {}},
@@ -107,8 +107,8 @@ TEST_CASE("Slot: the pressure of a contact is its load times branch along x and 
 }
 
 TEST_CASE("Slot: the angle of a ridge is found") {
-  const AnalysedRun run = slot();
-  BedFrame bed;
+  const MeasuredDomain run = slot();
+  Bed bed;
   for (int i = -64; i < 64; ++i) {
     for (int j = 0; j < 16; ++j) {
       BedGrain g;
@@ -125,9 +125,9 @@ TEST_CASE("Slot: the angle of a ridge is found") {
 }
 
 TEST_CASE("Slot: the discharge rate is that of the slot itself, and Beverloo's law is not known") {
-  AnalysedRun run = slot();
+  MeasuredDomain run = slot();
   std::vector<Crossing> stream;
-  for (int k = 0; k < 600; ++k) stream.push_back({1 + (k + 0.5) / 600, 0});
+  for (int k = 0; k < 600; ++k) stream.push_back({1 + (k + 0.5) / 600, 0, 1});
   const std::vector<Part> parts = make_parts(run, {{4}, 4});
   REQUIRE(parts.size() == 1);  // nothing to cut wedges from
   CHECK(parts[0].regions.size() == 1);

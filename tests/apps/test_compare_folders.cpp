@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "apps/commands/commands.hpp"
+#include "apps/results/vocabulary.hpp"
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/tables/csv.hpp"
@@ -84,7 +85,7 @@ const char* const result_files[] = {"scalars.csv", "distributions.csv", "radial.
 /// Takes wedge number `wedge` out of the results of a run.
 void take_wedge_out(const std::string& folder, int wedge) {
   for (const char* file : result_files)
-    rewrite(folder + "/results/" + file, "wedge_90_" + std::to_string(wedge), "other_" + std::to_string(wedge));
+    rewrite(folder + "/results/" + file, "wedge_n4_" + std::to_string(wedge), "wedge_n5_" + std::to_string(wedge));
 }
 
 /// The bed of a moment comes to rest: all grains in the two bins of vz beside 0, or one more besides.
@@ -118,7 +119,7 @@ TEST_CASE("Sectors of the same law agree with full vessels, shifted ones do not"
   options.csv = study.path("same.csv");
   const Said same = compare(full, study.sectors(5, 0), options);
   CHECK(same.code == 0);
-  CHECK(has(same.text, "core: r < 4 d / theta = 2.55 d"));
+  CHECK(has(same.text, "axis zone: r < 4 d / theta = 2.55 d"));
   CHECK(has(
       same.text,
       "yardstick: 5 wedges against 6 full vessels, drawn 1000 times from the 24 wedges of the 6 reference runs"));
@@ -182,9 +183,62 @@ TEST_CASE("The same runs compared with themselves do not differ, twice to the sa
   for (const Row& row : rows_of(options.csv)) {
     CHECK(number(row, "value") == 0);
     CHECK(row.at("beyond") == "0");
-    CHECK(row.at("region") == "all");  // a full vessel has no core
+    CHECK(row.at("region") == "all");  // a full vessel has no axis zone
   }
   CHECK(compare(full, full, options).text == first.text);
+}
+
+TEST_CASE("What is compared of scalars, distributions, profiles and maps is what the vocabulary says",
+          "[compare]") {
+  Study study;
+  const auto full = study.full(1), sector = study.sectors(1, 0);
+  std::string scalars = "moment,part,quantity,unit,value,low,high\n";
+  std::string distributions = "moment,part,region,quantity,unit,scale,step,first,counts\n";
+  std::map<std::string, std::vector<std::string>> expected, found;
+  for (const ResultQuantity* q : quantities_in(in_scalars)) {
+    scalars += std::string("settle,whole,") + q->name + "," + q->unit + ",1,nan,nan\n";
+    if (q->compared()) expected["scalar"].push_back(q->name);
+  }
+  for (const ResultQuantity* q : quantities_in(in_distributions)) {
+    distributions += std::string("settle,whole,all,") + q->name + "," + q->unit + ",1,0,0,1 2\n";
+    if (q->compared()) expected["distribution"].push_back(q->name);
+  }
+  for (const auto& [kind, file, table] :
+       {std::tuple{"profile", "radial.csv", in_profile}, std::tuple{"map", "map.csv", in_map}}) {
+    std::string head = "moment,part", row = "settle,whole";
+    for (const ResultQuantity* q : quantities_in(table)) {
+      head += "," + heading(q->name);
+      row += ",1";
+      if (q->compared() && q->name != std::string(row_weight)) expected[kind].push_back(q->name);
+    }
+    for (const std::string& folder : {full[0], sector[0]})
+      write_text_file_atomically(folder + "/results/" + file, head + "\n" + row + "\n");
+  }
+  for (const std::string& folder : {full[0], sector[0]}) {
+    write_text_file_atomically(folder + "/results/scalars.csv", scalars);
+    write_text_file_atomically(folder + "/results/distributions.csv", distributions);
+  }
+  CompareOptions options;
+  options.csv = study.path("rows.csv");
+  compare(full, sector, options);
+  for (const Row& row : rows_of(options.csv))
+    if (row.at("region") == "all" && row.at("measure") != "ks") {
+      found[row.at("kind")].push_back(row.at("quantity"));
+      CHECK(row.at("unit") == quantity(row.at("quantity")).unit);
+    }
+  CHECK(found == expected);
+
+  // Sums over a vessel and over a slot have nothing to do with each other.
+  rewrite(sector[0] + "/scene.resolved.toml", "angle = 90", "kind = \"slot\"\nwidth = 0.02");
+  rewrite(sector[0] + "/scene.resolved.toml", "r = [0, \"20 d\"]", "x = [0, \"20 d\"]");
+  compare(full, sector, options);
+  int rows = 0;
+  for (const Row& row : rows_of(options.csv)) {
+    const QuantityKind kind = quantity(row.at("quantity")).kind;
+    CHECK((kind != QuantityKind::extensive && kind != QuantityKind::per_height));
+    ++rows;
+  }
+  CHECK(rows > 20);
 }
 
 TEST_CASE("Folders that lack files are compared in what they have", "[compare]") {
@@ -200,6 +254,11 @@ TEST_CASE("Folders that lack files are compared in what they have", "[compare]")
     CHECK(row.at("kind") != "map");
     if (row.at("kind") == "profile") CHECK(row.at("reference_runs") == "1");
   }
+  fs::remove(sector[0] + "/results/summary.json");  // which tells d
+  const Said unknown = compare(full, sector, options);
+  CHECK(has(unknown.text, "summary.json is missing: no axis zone and rest of profiles and maps"));
+  for (const Row& row : rows_of(options.csv))
+    if (row.at("kind") == "profile") CHECK(row.at("region") == "all");
   fs::remove_all(sector[0] + "/results");
   const Said bare = compare(full, sector);
   CHECK(bare.code == 0);
@@ -220,6 +279,10 @@ TEST_CASE("A file of an analysis that is wrong is refused with its place", "[com
         std::make_pair(head + "settle,whole,all,vz,m/s,0,0,0,1 2\n", ":2: error: scale must be above 0"),
         std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 -2\n", ":2: error: counts must be at least 0"),
         std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0\n", ":2: error: expected 9 fields"),
+        std::make_pair(head + "settle,whole,core_90,vz,m/s,1,0,0,1 2\n",
+                       ":2: error: 'core_90' is no region of this version of wedge; measure the run again"),
+        std::make_pair(head + "settle,whole,all,core_cn,,1,0,0,1 2\n", ":2: error: 'core_cn' is no quantity"),
+        std::make_pair(head + "settle,wedge_90_0,all,vz,m/s,1,0,0,1 2\n", ":2: error: 'wedge_90_0' is no part"),
         std::make_pair(std::string("moment,part,area\n"), ":1: error: there is no column 'region'"),
         std::make_pair(std::string("stage,time\n"), ":1: error: this is not a table of `wedge analyse`"),
         std::make_pair(std::string(), ":1: error: the file is empty")}) {
@@ -294,7 +357,7 @@ TEST_CASE("Scalars that only sectors and wedges have are compared with the wedge
   const auto full = study.full(1), sector = study.sectors(1, 0);
   std::string text = "moment,part,quantity,unit,value,low,high\n";
   for (int k = 0; k < 4; ++k)
-    text += "settle,wedge_90_" + std::to_string(k) + ",cn_slope,1," + std::to_string(k) + ",nan,nan\n";
+    text += "settle,wedge_n4_" + std::to_string(k) + ",cn_slope,1," + std::to_string(k) + ",nan,nan\n";
   write_text_file_atomically(full[0] + "/results/scalars.csv", text);
   write_text_file_atomically(sector[0] + "/results/scalars.csv",
                              "moment,part,quantity,unit,value,low,high\nsettle,whole,cn_slope,1,5,nan,nan\n");
@@ -326,11 +389,12 @@ TEST_CASE("Histograms of different bins are compared in the bins of both", "[com
   }
 }
 
-TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
+TEST_CASE("Axis zone and rest of a map are split at 4 d over theta", "[compare]") {
   Study study;
   const auto full = study.full(1), sector = study.sectors(1, 0);
   std::string first = "moment,part,r [m],z [m],grains,cn,zone\n", second = first;
-  for (int k = 0; k < 6; ++k) {  // r = 0.5 d ... 5.5 d: the core of a quarter ends at 2.55 d; three cells inside
+  for (int k = 0; k < 6;
+       ++k) {  // r = 0.5 d ... 5.5 d: the axis zone of a quarter ends at 2.55 d; three cells inside
     const std::string place = "settle,whole," + number_text((k + 0.5) * d) + ",0,1,";
     first += place + "5,0\n";
     second += place + (k < 3 ? "7,0\n" : "6,0\n");
@@ -344,7 +408,7 @@ TEST_CASE("Core and rest of a map are split at 4 d over theta", "[compare]") {
   for (const Row& row : rows_of(options.csv))
     if (row.at("kind") == "map") rms[row.at("region")] = number(row, "value");
   REQUIRE(rms.size() == 3);
-  CHECK(rms["core"] == Approx(2));
+  CHECK(rms["axis_zone"] == Approx(2));
   CHECK(rms["rest"] == Approx(1));
   CHECK(rms["all"] == Approx(std::sqrt(2.5)));
 }
@@ -369,7 +433,7 @@ TEST_CASE("Fewer than four wedges are no yardstick, and it is said what gives on
   CHECK(has(enough.text, "drawn 1000 times from the 4 wedges of the 2 reference runs"));
   for (const Row& row : rows_of(options.csv)) CHECK(row.at("beyond") != "nan");
   // A vessel has but two halves.
-  for (const char* file : result_files) rewrite(full[0] + "/results/" + file, "wedge_90_", "wedge_180_");
+  for (const char* file : result_files) rewrite(full[0] + "/results/" + file, "wedge_n4_", "wedge_n2_");
   const Said halves = compare({full[0]}, study.sectors(1, 0, 180));
   CHECK(has(halves.text, "a vessel has only 2 of them: name 2 reference runs (seeds) or more\n"));
 }

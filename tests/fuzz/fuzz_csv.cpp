@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "apps/run/bed_table.hpp"
+#include "apps/results/bed_table.hpp"
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/tables/csv.hpp"

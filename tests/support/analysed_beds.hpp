@@ -13,25 +13,19 @@ inline constexpr double R = 0.0025, d = 2 * R;
 inline const double mass = sphere_mass(R, 3800);
 
 /// A vessel 40 d wide: the full one, or a sector of it.
-inline AnalysedRun vessel(int order = 1, AxisRule axis = AxisRule::clamp) {
+inline MeasuredDomain vessel(int order = 1, AxisRule axis = AxisRule::clamp) {
   Scene scene = hopper_material();
   scene.domain.gravity = {0, 0, -9.81};
   add_wall(scene, "shell", {{20 * d, 0}, {20 * d, 60 * d}});
   add_wall(scene, "floor", {{4 * d, 0}, {20 * d, 0}});
   add_wall(scene, "plug", {{0, 0}, {4 * d, 0}});
   if (order > 1) make_sector(scene, order, axis);
-  return describe_run(RunFolder("nowhere"), scene, d);
-}
-
-inline ParticleFrame frame_of(const AnalysedRun& run, const std::vector<Grain>& grains) {
-  ParticleFrame frame;
-  frame.particles = make_state(run.scene, grains).particles;
-  return frame;
+  return describe_domain(scene, make_domain(scene).symmetry, d);
 }
 
 /// As read from a frame without contacts: contacts are overlaps.
-inline BedFrame bed_of(const AnalysedRun& run, const std::vector<Grain>& grains) {
-  return make_bed_frame(run, Vessel(run.scene), frame_of(run, grains), nullptr);
+inline Bed bed_of(const MeasuredDomain& run, const std::vector<Grain>& grains) {
+  return bed_of_frame(run, make_state(run.scene, grains), nullptr);
 }
 
 /// A contact as a frame lists it; `way` leads from the first grain to the second.
@@ -40,8 +34,7 @@ struct Touch {
   double load;  // N
 };
 
-inline BedFrame bed_of(const AnalysedRun& run, const std::vector<Grain>& grains,
-                       const std::vector<Touch>& touches) {
+inline Bed bed_of(const MeasuredDomain& run, const std::vector<Grain>& grains, const std::vector<Touch>& touches) {
   ContactFrame contacts;
   contacts.first_position.resize(touches.size());
   contacts.second_position.resize(touches.size());
@@ -60,7 +53,7 @@ inline BedFrame bed_of(const AnalysedRun& run, const std::vector<Grain>& grains,
     contacts.normal_force.set(c, (-t.load / norm(to - from)) * (to - from));
     contacts.tangential_force.set(c, {0, 0, 0});
   }
-  return make_bed_frame(run, Vessel(run.scene), frame_of(run, grains), &contacts);
+  return bed_of_frame(run, make_state(run.scene, grains), &contacts);
 }
 
 inline std::vector<Grain> lattice(int nx, int ny, int nz, double spacing) {
@@ -74,7 +67,7 @@ inline std::vector<Grain> lattice(int nx, int ny, int nz, double spacing) {
 }
 
 /// Cells d wide and high over the whole vessel and a margin outside it.
-inline FieldGrid wide_grid(const AnalysedRun& run) {
+inline FieldGrid wide_grid(const MeasuredDomain& run) {
   FieldGrid grid;
   grid.left = run.left;
   grid.low = -10 * d;
@@ -86,12 +79,12 @@ inline FieldGrid wide_grid(const AnalysedRun& run) {
   return grid;
 }
 
-inline PartSums sums_of(const AnalysedRun& run, const BedFrame& bed, const Part& part) {
+inline PartSums sums_of(const MeasuredDomain& run, const Bed& bed, const Part& part) {
   PartSums sums(run, part, wide_grid(run), mass);
   sums.add(bed);
   return sums;
 }
-inline PartSums sums_of(const AnalysedRun& run, const BedFrame& bed) {
+inline PartSums sums_of(const MeasuredDomain& run, const Bed& bed) {
   return sums_of(run, bed, make_parts(run, {}).front());
 }
 
@@ -116,14 +109,14 @@ inline CellFields over_space(const PartSums& sums) {
 
 inline double number(const PartSums& sums, const std::string& name) {
   for (const Scalar& s : sums.scalars())
-    if (s.name == name) return s.estimate.value;
+    if (s.quantity->name == name) return s.estimate.value;
   FAIL("no number " << name);
   return 0;
 }
 
 inline std::size_t kind(const PartSums& sums, const std::string& name) {
   for (std::size_t k = 0; k < sums.kinds().size(); ++k)
-    if (sums.kinds()[k].name == name) return k;
+    if (sums.kinds()[k].quantity->name == name) return k;
   FAIL("no distribution " << name);
   return 0;
 }

@@ -63,7 +63,7 @@ public:
       scalars += head + "vz,m/s," + number_text(sum / grains) + ",nan,nan\n";
       scalars += head + "cn,-," + number_text(cn) + ",nan,nan\n";
       // sinh(k asinh(1)) would stretch the bins; a step so small leaves them even.
-      for (const char* region : {"all", "core_90", "rest_90"})
+      for (const char* region : {"all", "axis_zone_n4", "rest_n4"})
         distributions += head + region + ",vz,m/s,1000000,1e-6,-10," + counts + "\n";
       for (int ring = 0; ring < 12; ++ring) {
         const std::string r = number_text((ring + 0.5) * d / 2),
@@ -81,6 +81,8 @@ public:
     write_text_file_atomically(folder + "/results/distributions.csv", distributions);
     write_text_file_atomically(folder + "/results/radial.csv", radial);
     write_text_file_atomically(folder + "/results/map.csv", map);
+    write_text_file_atomically(folder + "/results/summary.json",
+                               "{\"domain\": {\"diameter_m\": " + number_text(d) + "}}\n");
   }
 
   std::string scalars = "moment,part,quantity,unit,value,low,high\n",
@@ -96,10 +98,10 @@ public:
     for (int run = 0; run < runs; ++run) {
       Files files;
       Part whole = random_part(random_, 0);
-      files.add("wedge_90_0", whole, 1);
+      files.add("wedge_n4_0", whole, 1);
       for (int k = 1; k < 4; ++k) {
         const Part wedge = random_part(random_, 0);
-        files.add("wedge_90_" + std::to_string(k), wedge, 1);
+        files.add("wedge_n4_" + std::to_string(k), wedge, 1);
         whole = whole + wedge;
       }
       files.add("whole", whole, 4);
