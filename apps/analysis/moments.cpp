@@ -30,7 +30,7 @@ void add_span(std::vector<Moment>& moments, const Span& span, bool mean, const s
               double apart) {
   const auto [from, to] = span.time;
   const double after = span.start == Start::counts ? from - 2e-9 * std::max(1.0, from) : from;
-  Moment all{moment_name(span.name, MomentKind::mean), span.stage, MomentKind::mean, span.role, from, to, {}};
+  Moment all{moment_name(span.name, MomentKind::mean), span.stage, MomentKind::mean, span.role, from, to, {}, {}};
   std::int64_t last = -1;
   double before = -std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < times.size(); ++n) {
@@ -49,25 +49,27 @@ void add_span(std::vector<Moment>& moments, const Span& span, bool mean, const s
   if (last < 0) return;
   if (all.frames.empty()) all.frames.push_back(last);
   const double end = times[static_cast<std::size_t>(last)];
-  moments.push_back(
-      {moment_name(span.name, MomentKind::instant), span.stage, MomentKind::instant, span.role, end, end, {last}});
+  moments.push_back({moment_name(span.name, MomentKind::instant),
+                     span.stage,
+                     MomentKind::instant,
+                     span.role,
+                     end,
+                     end,
+                     {last},
+                     {}});
   if (mean) moments.push_back(all);
 }
 
-/// The window as a span: it has the stage it lies in and the role that all its stages have. Nothing is at rest in a
-/// window: it may lie before the bed came to rest.
-Span window_of(const AnalysedRun& run, const std::vector<Crossing>& crossings, TimeSpan time) {
-  Span window{window_name, "", MomentRole::other, time, Start::counts};
+/// Whether the bed flows in every stage that a span touches. A span is never at rest: the bed may only come to rest
+/// in it.
+bool flows(const AnalysedRun& run, const std::vector<Crossing>& crossings, TimeSpan span) {
   std::size_t stages = 0;
-  bool flows = true;
   for (std::size_t s = 0; s < run.stages.size(); ++s) {
-    const StageRecord& stage = run.stages[s];
-    if (stage.begin >= time.to || stage.end <= time.from) continue;
-    window.stage = ++stages == 1 ? stage.name : "";
-    flows = flows && role_of_stage(run, s, crossings) == MomentRole::flow;
+    if (run.stages[s].begin >= span.to || run.stages[s].end <= span.from) continue;
+    if (role_of_stage(run, s, crossings) != MomentRole::flow) return false;
+    ++stages;
   }
-  if (stages > 0 && flows) window.role = MomentRole::flow;
-  return window;
+  return stages > 0;
 }
 
 }  // namespace
@@ -114,13 +116,15 @@ std::vector<Moment> make_moments(const AnalysedRun& run, const std::vector<Cross
   }
   const std::size_t of_stages = moments.size();
   if (span) {
-    add_span(moments, window_of(run, crossings, {span->from, std::min(span->to, times.back())}), true, times,
-             apart);
+    const TimeSpan window{span->from, std::min(span->to, times.back())};
+    const MomentRole role = flows(run, crossings, window) ? MomentRole::flow : MomentRole::other;
+    add_span(moments, {window_name, "", role, window, Start::counts}, true, times, apart);
     if (moments.size() == of_stages)
       throw FileError(run.folder.frames() + ": no frame lies between " + number_text(span->from) + " and " +
                       (span->to < 1e300 ? number_text(span->to) + " s" : "the end") + "; they go from " +
                       number_text(times.front()) + " to " + number_text(times.back()) + " s");
   }
+  for (Moment& m : moments) m.walls = walls_present(vessel_at(run.scene, run.stages, m.end));
   if (moments.empty())
     throw FileError(run.folder.path() + ": no stage has ended yet; name a span of time: wedge analyse " +
                     run.folder.path() + " --from " + number_text(times.front()) + " --to " +

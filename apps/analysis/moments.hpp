@@ -13,11 +13,12 @@
 namespace wedge {
 
 struct Moment {
-  std::string name, stage;                // stage: "" of a window over several
+  std::string name, stage;                // stage: "" of a window
   MomentKind kind = MomentKind::instant;  // of one frame, or the mean over all frames of a span of time
   MomentRole role = MomentRole::other;
   double begin = 0, end = 0;         // s; of an instant both are the time of its frame
   std::vector<std::int64_t> frames;  // numbers, at least one
+  std::vector<std::string> walls;    // present at its end
 };
 
 struct TimeSpan {

@@ -99,6 +99,7 @@ std::string summary_json(const AnalysedRun& run, const std::vector<MomentResult>
                        {"stage", m.stage},
                        {"kind", name_of(m.kind)},
                        {"role", name_of(m.role)},
+                       {"walls", m.walls},
                        {"begin_s", short_number(m.begin)},
                        {"end_s", short_number(m.end)},
                        {"frames", m.frames.size()},

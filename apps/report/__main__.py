@@ -13,9 +13,11 @@ import figures_errors
 import figures_flow
 import figures_maps
 import figures_pictures
+import figures_scalars
 import figures_study
 import markdown
 import tables
+import vocabulary
 from ensembles import counted, grouped, sort_into_vessels
 from page import Section, commands, page, provenance
 from read import find_runs
@@ -94,6 +96,7 @@ def gallery(v):
     section.text("Wall time (as the paper\u2019s Table " + ("1)" if v.hopper else "2)"), tables.costs(v))
     roles = v.roles()
     moments = dict.fromkeys(roles[name] for name in ("rest", "instant", "second", "mean", "end") if roles[name])
+    section.figure(figures_scalars.by_angle(v, [roles["rest"], roles["mean"] or roles["end"]]))
     section.text("All numbers", "".join(tables.scalars(v, moment) for moment in moments))
     return section
 
@@ -176,9 +179,9 @@ def main():
     sections[0].parts.append(("Vessels and seeds", overview(vessels)))
     sections += [gallery(v) for v in chosen(vessels)] + study(vessels, comparisons)
     definitions = Section("definitions", "Definitions")
-    for name in ("definitions.md", "comparisons.md"):
+    for name, more in (("analysis.md", vocabulary.definitions()), ("comparison.md", "")):
         with open(os.path.join(HERE, name), encoding="utf-8") as file:
-            definitions.intro += markdown.to_html(file.read(), 3)
+            definitions.intro += markdown.to_html(file.read(), 3) + more
     origin = Section("provenance", "Provenance")
     origin.text("Runs", provenance(runs))
     origin.text("Commands that reproduce this page", commands(runs, comparisons, own_command(arguments)))

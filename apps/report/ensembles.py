@@ -2,6 +2,7 @@
 import numpy as np
 
 from student import two_sided
+from vocabulary import angle_label
 
 
 class Sample:
@@ -53,7 +54,7 @@ class Ensemble:
             return self.kind
         extra = [self.sides] if self.sides != "periodic" else []
         extra += [f"axis {self.axis}"] if self.axis != "clamp" else []
-        return ", ".join([f"{self.angle:g}\u00b0"] + extra)
+        return ", ".join([angle_label(self.order)] + extra)
 
     def seeds(self, runs=None):
         found = [run.seed for run in (runs or self.runs)]
@@ -169,8 +170,8 @@ class Vessel:
     @property
     def gallery(self):
         """The ensembles that have a place in each figure: full, 90, 60, 45, 30 degrees, or what there is."""
-        usual = [e for e in self.main if e.full or e.angle in (90, 60, 45, 30)]
-        return (usual or self.main or self.ensembles)[:6]
+        usual = [e for e in self.main if e.full or e.order in (4, 6, 8, 12)]
+        return (usual if any(not e.full for e in usual) else self.main or self.ensembles)[:6]
 
     @property
     def title(self):
@@ -182,19 +183,22 @@ class Vessel:
     def id(self):
         return f"{self.process}-{self.width:g}-{self.orifice or 0:g}-{self.count}".replace(".", "_").replace(" ", "-")
 
+    def moments(self, kind, role=None):
+        """Names of the moments of stages of a kind, and of a role if one is named, in their order."""
+        return list(dict.fromkeys(m["name"] for e in self.ensembles for run in e.runs for m in run.summary.get("moments", [])
+                                  if m.get("kind") == kind and m.get("stage") != "" and role in (None, m.get("role"))))
+
     def roles(self):
-        """Which moment is which: at rest, the paper's instants, the average and the end."""
-        names = list(dict.fromkeys(name for e in self.ensembles for run in e.runs for name in run.moments()))
-        instants = [n for n in names if not n.endswith("_mean") and n != "window"]
-        means = [n for n in names if n.endswith("_mean")]
-        after = instants[1:] or instants
-        roles = {"rest": instants[0] if instants else None}
-        roles["instant"] = next((n for n in ("open", "collapse") if n in names), after[0] if after else None)
-        roles["second"] = next((n for n in ("spread", "flow") if n in names), after[-1] if after else None)
-        wanted = ("flow_mean", "open_mean") if self.hopper else (f"{roles['instant']}_mean",)
-        roles["mean"] = next((n for n in wanted if n in names), means[-1] if means else None)
-        roles["end"] = instants[-1] if instants else None
-        return roles
+        """Which moment is which: at rest, the first and last instant of the flow, its mean and the end. Where no moment has the role
+        of rest or flow, the first instant counts as at rest and what follows as flow."""
+        instants, means = self.moments("instant"), self.moments("mean")
+        rest = (self.moments("instant", "rest") or instants or [None])[0]
+        later = instants[instants.index(rest) + 1:] if rest in instants else []
+        flows = self.moments("instant", "flow") or later or instants
+        flow_means = self.moments("mean", "flow") or means
+        mean = (flow_means[-1] if self.hopper else flow_means[0]) if flow_means else None  # a pile flows most at first
+        return {"rest": rest, "instant": flows[0] if flows else None, "second": flows[-1] if flows else None, "mean": mean,
+                "end": instants[-1] if instants else None}
 
     def brief(self, moment):
         """A moment for a label: name and time alone."""
@@ -204,19 +208,19 @@ class Vessel:
         """Words for a moment: its name and its time after the first stage."""
         for e in self.ensembles:
             for run in e.runs:
-                known = {m["name"]: m for m in run.summary.get("moments", [])}
-                if moment not in known:
+                known = run.moment(moment)
+                if not known:
                     continue
                 first = run.summary["moments"][0]
-                begin, end = (known[moment].get(k) for k in ("begin_s", "end_s"))
+                begin, end = (known.get(k) for k in ("begin_s", "end_s"))
                 if moment == first["name"] or None in (end, first.get("end_s")):
                     return f"{moment} (before opening)" if moment == first["name"] else moment
-                if moment.endswith("_mean") or known[moment].get("kind") == "mean":
-                    frames = known[moment].get("frames")
+                if known.get("kind") == "mean":
+                    frames = known.get("frames")
                     return (f"{moment} (average of {frames} frames, {begin - first['end_s']:.2f} to "
                             f"{end - first['end_s']:.2f} s after opening)")
-                if moment == "pile":
-                    return "pile (at rest)"
+                if known.get("role") == "rest":
+                    return f"{moment} (at rest)"
                 return f"{moment} ({end - first['end_s']:.2f} s after opening)"
         return str(moment)
 

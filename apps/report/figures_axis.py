@@ -3,6 +3,7 @@ import numpy as np
 
 from ensembles import Sample
 from figures_distributions import BAND, legend_text
+from vocabulary import AXIS_ZONE_ARC
 from style import FULL, Figure, Image, colour, curves, frame_values, line_style, marker, svg
 
 
@@ -32,7 +33,7 @@ def arc_image(vessel, moment, column):
         found = e.profile(moment, column)
         if found is None:
             continue
-        profile_line(axes[0], found[1], found, e, (found[1] <= 8) & off_wall(vessel, found))
+        profile_line(axes[0], found[1], found, e, (found[1] <= 2 * AXIS_ZONE_ARC) & off_wall(vessel, found))
         far.append(e.scalar(moment, "cn0").mean)
         drawn = True
     if not drawn:
@@ -40,18 +41,18 @@ def arc_image(vessel, moment, column):
         return None
     cn0 = float(np.nanmean(far)) if np.isfinite(far).any() else float("nan")
     if np.isfinite(cn0):
-        arc = np.array([0, 4.0, 8.0])
-        line = np.where(arc <= 4, (cn0 / 3 - 1) * arc + 4 - cn0 / 3, cn0)
+        arc = np.array([0, AXIS_ZONE_ARC, 2 * AXIS_ZONE_ARC])
+        line = np.where(arc <= AXIS_ZONE_ARC, (cn0 / 3 - 1) * arc + 4 - cn0 / 3, cn0)
         axes[0].plot(arc, line, color="#1c1c1c", linewidth=1.6, linestyle=(0, (5, 2)), zorder=4,
                      label=f"Yang et al. 2014, CN$_0$ = {cn0:.2f}")
     if vessel.full is not None:
         level = vessel.full.scalar(moment, "cn0")
         if level.n:
             axes[0].axhline(level.mean, color=FULL, linewidth=1, linestyle=":", label=f"full, bulk: {level.mean:.2f}")
-    axes[0].axvline(4, color="#9a9a9a", linewidth=0.8)
+    axes[0].axvline(AXIS_ZONE_ARC, color="#9a9a9a", linewidth=0.8)
     axes[0].set_xlabel(r"arc length $r\,\theta\,/\,d$")
     axes[0].set_ylabel(COUNTS[column])
-    axes[0].set_xlim(0, 8)
+    axes[0].set_xlim(0, 2 * AXIS_ZONE_ARC)
     axes[0].legend(loc="lower right")
     return Image(svg(figure), f"{COUNTS[column]} against arc length, {vessel.when(moment)}", vessel.brief(moment))
 
@@ -179,5 +180,5 @@ def axis_mass(vessel, moments):
     images = [scalar_dots(vessel, vessel.gallery, m, q, f"mass at r < {n} d, over that of the bulk", line=1)
               for m in dict.fromkeys(moments) if m for q, n in (("axis_density_1d", "1"), ("axis_density_2d", "2"))]
     caption = ("Mass of bulk grains whose centres lie within d or 2 d of the axis, over what the packing of the bulk would put there: "
-               "1 where the core is like the rest. " + DOTS)
+               "1 where the axis is like the rest. " + DOTS)
     return Figure("Mass at the axis", images, caption)

@@ -2,7 +2,8 @@
 import numpy as np
 
 from ensembles import counted
-from style import Figure, Image, curves, colour, line_style, marker, svg
+from vocabulary import axis_zone
+from style import Figure, Image, curves, colour, line_style, marker, plt, svg
 
 BAND = "Lines: means over seeds; bands: \u00b1 one standard deviation over seeds (none where there is one seed)."
 
@@ -116,10 +117,38 @@ def cn_image(vessel, moment, quantity="cn", symbol="CN"):
     return Image(svg(figure), f"Distribution of the coordination number, {vessel.when(moment)}", vessel.brief(moment))
 
 
+def zone_image(vessel, moment, quantity="cn"):
+    """Each sector's axis zone beside the full vessel's within the same distance from the axis."""
+    figure, axes = curves(3.0)
+    for e in vessel.gallery:
+        if e.kind != "sector":
+            continue
+        for members, style in (([e], {}), ([vessel.full] if vessel.full else [], {"linestyle": ":", "linewidth": 1.4})):
+            bins = aligned(members, quantity, moment, axis_zone(e.order))
+            if bins is None:
+                continue
+            first, _, _, table = bins
+            for member, rows in table.items():
+                x = np.arange(first, first + rows.shape[1])
+                axes[0].plot(x, 100 * rows.mean(axis=0), label=legend_text(e, rows) if not style else None,
+                             **{**line_style(e), **style})
+    if not axes[0].lines:
+        plt.close(figure)
+        return None
+    axes[0].set_ylabel("grains of the axis zone [%]")
+    axes[0].set_xlabel("coordination number CN")
+    axes[0].set_ylim(0, None)
+    axes[0].legend(fontsize=7.5)
+    return Image(svg(figure), f"Distribution of the coordination number in the axis zone, {vessel.when(moment)}",
+                 f"{vessel.brief(moment)}, axis zone")
+
+
 def cn_distributions(vessel, moments, paper=None):
-    images = [cn_image(vessel, m) for m in dict.fromkeys(moments) if m]
+    moments = [m for m in dict.fromkeys(moments) if m]
+    images = [cn_image(vessel, m) for m in moments] + [zone_image(vessel, m) for m in moments]
     caption = (f"Share of the grains of the bed by coordination number (contacts with overlap > 0, walls not counted). {BAND} Below: "
-               "sector less full, in percentage points; grey: standard deviation over the seeds of the full vessel.")
+               "sector less full, in percentage points; grey: standard deviation over the seeds of the full vessel. Axis zone: r < 4 d / theta; dotted, the full vessel\u2019s "
+               "grains within the same distance.")
     return Figure("Distribution of the coordination number", images, caption, paper)
 
 

@@ -11,14 +11,12 @@ from ensembles import counted
 from read import Table, number
 from style import Figure, Image, plt, svg
 from tables import minus, shown, table
+from vocabulary import quantities, region_label
 
 # What the page shows of a comparison; the files hold the rest.
-SCALARS = ["packing", "bed_height", "cn", "cn_near", "cn_distinct", "cn_without_rattlers", "rattlers", "core_cn", "cn_slope",
-           "cn_distinct_slope", "load", "speed", "axis_density_1d", "axis_density_2d", "discharge_rate", "angle_of_repose"]
-DISTRIBUTIONS = ["cn", "cn_distinct", "vr", "vt", "vz", "fr", "ft", "fz", "load"]
-FIELDS = ["cn", "cn_distinct", "packing", "vr", "vz", "speed_spread", "prr", "pzz"]
-WANTED = ([("scalar", q, "difference") for q in SCALARS] + [("distribution", q, "wasserstein") for q in DISTRIBUTIONS]
-          + [("profile", q, "rms") for q in FIELDS] + [("map", q, "rms") for q in FIELDS])
+WANTED = [(kind, q, measure) for kind, table, measure in
+          (("scalar", "scalars", "difference"), ("distribution", "distributions", "wasserstein"), ("profile", "profile", "rms"),
+           ("map", "map", "rms")) for q in quantities(table, overview=True)]
 EDGES = [0, 0.5, 1, 1.5, 2, 3, 5, 1000]
 TINTS = ListedColormap(["#eef1f4", "#e2e6ea", "#f6dfae", "#f0b878", "#e48f5c", "#cf5b46", "#96283f"])
 
@@ -28,7 +26,7 @@ class Comparison:
 
     def __init__(self, path):
         self.name = os.path.splitext(os.path.basename(path))[0]
-        head = re.fullmatch(r"(.+?)_(?:a(\d+)(?:_(\w+))?|(slot))", self.name)
+        head = re.fullmatch(r"(.+?)_(?:a(\d+(?:\.\d+)?)(?:_(\w+))?|(slot))", self.name)
         self.group = head[1] if head else self.name
         self.angle = float(head[2]) if head and head[2] else math.inf
         self.label = self.name if not head else head[4] or " ".join(filter(None, (f"{head[2]}\u00b0", head[3])))
@@ -58,9 +56,10 @@ def groups(comparisons):
 
 
 def moments(members):
+    """Those with maps where there are any: other moments of the same files tell little that these do not."""
     found = dict.fromkeys(key[0] for c in members for key in c.rows)
-    return [m for m in found if not (m.endswith("_mean") and any(k[0] == m[:-5] and k[2] == "map" for c in members for k in c.rows)
-                                     and not any(k[0] == m and k[2] == "map" for c in members for k in c.rows))]
+    mapped = {key[0] for c in members for key in c.rows if key[2] == "map"}
+    return [m for m in found if not mapped or m in mapped]
 
 
 def figure(name, members):
@@ -125,10 +124,10 @@ def cell(row):
 def error_table(name, members):
     rows = []
     for moment in moments(members):
-        for region in ("all", "core"):
+        for region in ("all", "axis_zone"):
             found = [key for key in WANTED if any((moment, region) + key in c.rows for c in members)]
             if found:
-                rows.append([f"moment {escape(moment)}, region {region}"])
+                rows.append([f"moment {escape(moment)}, region {escape(region_label(region))}"])
             for key in found:
                 entries = [c.rows.get((moment, region) + key) for c in members]
                 rows.append([f"<code>{escape(key[1])}</code> <small>{key[0]}, {key[2]}</small>"] + [cell(entry) for entry in entries])

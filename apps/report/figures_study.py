@@ -9,6 +9,7 @@ from ensembles import counted, grouped, student
 from figures_axis import DOTS, scalar_dots
 from figures_flow import beverloo_line
 from style import Figure, Image, curves, frame_values, plt, svg
+from vocabulary import angle_label
 from tables import cell, difference, digits, percent, table
 
 # Vessels in this section: Okabe and Ito's colours, which colour-blind readers tell apart, in as many turns of the markers.
@@ -16,8 +17,8 @@ TINTS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000
 SHAPES = "osD^vP*"
 ASIDE = 0.14  # vessels at one angle stand side by side in the picture of arches: over this range of the logarithm
 MANY = 4  # runs from which on a share of arches is drawn with its interval
-CORE = [("packing", "rest"), ("cn_distinct", "rest")]  # quantities whose errors fall with (d / (D theta))^2
-CORE_LIMIT = 2  # of the packing, per cent
+ZONE_LAW = [("packing", "rest"), ("cn_distinct", "rest")]  # quantities whose errors fall with (d / (D theta))^2
+ZONE_LIMIT = 2  # of the packing, per cent
 STUDIED = [("cn", "rest", "CN at rest", 2), ("cn_distinct", "rest", "CN of distinct neighbours at rest", 2),
            ("cn", "mean", "CN in flow", 2), ("cn_distinct", "mean", "CN of distinct neighbours in flow", 2),
            ("packing", "rest", "packing fraction at rest", 1),
@@ -65,7 +66,7 @@ def dress(axes, vessels, key, label):
     ticks = angles[::max(1, round(len(angles) / 7))] if key == "angle" else [1, 2, 4, 8, 16, 32, 64]
     axes.xaxis.set_major_locator(FixedLocator(ticks))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:.3g}")
     axes.set_xlabel(label)
 
 
@@ -106,7 +107,7 @@ def one_orifice(vessels):
     return [v for _, v in best.values()]
 
 
-def core_law(vessels, quantity, role):
+def zone_law(vessels, quantity, role):
     """a of error = a (d / (D theta))^2 with half its 95 % interval and the number of ensembles, by least squares; None of fewer than
     three. The variance of a mean goes down with the grains it is of, so the weight of a difference of two is 1 / (1/N + 1/N_full)."""
     x, y, weight = [], [], []
@@ -128,7 +129,7 @@ def core_law(vessels, quantity, role):
     return a, student(len(x)) * math.sqrt(spread / (weight * x * x).sum()), len(x)
 
 
-def core_words(law):
+def zone_words(law):
     a, half, n = law
     return f"a = {digits(a, half)} \u00b1 {digits(half, half)} (95 %; {counted(n, 'ensemble')})".replace("-", "\u2212")
 
@@ -137,7 +138,7 @@ RULE = {"color": "#1c1c1c", "linewidth": 1.3, "linestyle": (0, (5, 2))}
 
 
 def error_image(vessels, quantity, role, words, limit, axis, law=None):
-    """law: that of core_law, drawn as a line."""
+    """law: that of zone_law, drawn as a line."""
     key, label, place = axis
     figure, axes = curves(3.3, 4.0)
     shown = [[-limit, limit]]
@@ -177,7 +178,7 @@ def smallest_angles(vessels):
     several = len(vessels) > 1
     decisive = "wall" if several else "angle"  # the picture in which one line is the rule of all vessels
     for quantity, role, words, limit in STUDIED:
-        law = core_law(vessels, quantity, role) if (quantity, role) in CORE else None
+        law = zone_law(vessels, quantity, role) if (quantity, role) in ZONE_LAW else None
         images = [error_image(vessels, quantity, role, words, limit, axis, law if axis[0] == decisive else None)
                   for axis in (AXES if several else AXES[:1])]
         if any(images):
@@ -189,7 +190,7 @@ def smallest_angles(vessels):
                                   + (" Runs that had arched are left out." if role == "mean" else "")
                                   + (" If the arc at the wall decides, curves fall together in the second picture; if the arc at the "
                                      "orifice decides, in the third." if several else "")
-                                  + (f" Dashed: error = a (d / (D \u03b8))\u00b2, {core_words(law)}, fitted to these ensembles (how: table "
+                                  + (f" Dashed: error = a (d / (D \u03b8))\u00b2, {zone_words(law)}, fitted to these ensembles (how: table "
                                      "of smallest angles)." if law else "")))
     images = [arched_image(vessels, axis) for axis in (AXES if several else AXES[:1])]
     if any(images):
@@ -226,22 +227,22 @@ def smallest(vessel, quantity, role, limit):
 
 
 def smallest_table(vessels):
-    rows, law = [], core_law(vessels, *CORE[0])
+    rows, law = [], zone_law(vessels, *ZONE_LAW[0])
     for v in vessels:
         row = [f"D = {v.width:g} d, D<sub>0</sub> = {v.orifice:g} d, {grouped(v.count)} grains"]
         for quantity, role, _, limit in STUDIED:
             best, sure = smallest(v, quantity, role, limit)
-            row.append("\u2013" if best is None else f"{best:g}\u00b0{'' if sure else ' ?'}")
+            row.append("\u2013" if best is None else f"{best:.3g}\u00b0{'' if sure else ' ?'}")
         cn0 = v.full.scalar(v.roles()["rest"], "cn0").mean
         cn0 = cn0 if math.isfinite(cn0) else v.full.scalar(v.roles()["rest"], "cn").mean
-        core = math.degrees(math.sqrt(max(law[0], 0) / (CORE_LIMIT / 100)) / v.width) if law else float("nan")
+        zone = math.degrees(math.sqrt(max(law[0], 0) / (ZONE_LIMIT / 100)) / v.width) if law else float("nan")
         paper = math.degrees(4.62 / (v.width / 2) * math.sqrt(max(cn0 / 3 - 1, 0) / (0.02 * cn0))) if cn0 > 0 else float("nan")
-        rules = [core, paper, math.degrees(6 / v.orifice)]
+        rules = [zone, paper, math.degrees(6 / v.orifice)]
         rows.append(row + [f"{angle:.0f}\u00b0" if math.isfinite(angle) else "\u2013" for angle in rules])
     head = ["vessel"] + [f"{escape(words)}<br><small>within {limit} %</small>" for _, _, words, limit in STUDIED]
-    head += [f"by the rule found here<br><small>packing fraction at rest within {CORE_LIMIT} %</small>", "by the paper's CN line",
+    head += [f"by the rule found here<br><small>packing fraction at rest within {ZONE_LIMIT} %</small>", "by the paper's CN line",
              "6 d / D<sub>0</sub>"]
-    told = (f"Of the first, \u03b8 = (d / D) (a / {CORE_LIMIT / 100:g})<sup>1/2</sup>, {core_words(law)} is fitted to the errors of the "
+    told = (f"Of the first, \u03b8 = (d / D) (a / {ZONE_LIMIT / 100:g})<sup>1/2</sup>, {zone_words(law)} is fitted to the errors of the "
             "packing fraction at rest of all sectors of these vessels: least squares of error = a (d / (D \u03b8))<sup>2</sup>, each "
             "weighted by 1 / (1/N + 1/N<sub>full</sub>), N the grains of all its runs together, since the variance of a mean goes down "
             "with them; of vessels that differ by the orifice alone, which hold the same beds, one counts. " if law else "")
@@ -265,7 +266,7 @@ def sides(vessel, vessels):
     roles, rows = vessel.roles(), []
     base = {q: vessel.full.scalar(roles[role], q) for q, role in SIDES} if vessel.full else {}
     for e in members:
-        name = "full" if e.full else "slot" if e.kind == "slot" else f"{e.angle:g}\u00b0, sides {e.sides}, axis {e.axis}"
+        name = "full" if e.full else "slot" if e.kind == "slot" else f"{angle_label(e.order)}, sides {e.sides}, axis {e.axis}"
         row = [escape(name), str(len(e.runs))]
         for quantity, role in SIDES:
             sample = e.scalar(roles[role], quantity)

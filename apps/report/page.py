@@ -5,6 +5,7 @@ from html import escape
 
 from ensembles import counted, grouped
 from tables import duration, table
+from vocabulary import angle_label
 
 STYLE = """
 :root { color-scheme: light dark; --ink: #1b1f24; --soft: #57606a; --line: #d5d9de; --paper: #ffffff; --ground: #f6f7f8;
@@ -153,7 +154,7 @@ def provenance(runs):
     for run in runs:
         p, cost = run.provenance, run.cost
         bounds = f", {run.sides}, axis {run.axis}" if run.kind == "sector" else ""
-        rows.append([f"<code>{escape(run.name)}</code>", escape(f"{run.kind} {run.angle:g}\u00b0{bounds}" if run.kind == "sector" else run.kind),
+        rows.append([f"<code>{escape(run.name)}</code>", escape(f"{run.kind} {angle_label(run.order)}{bounds}" if run.kind == "sector" else run.kind),
                      str(run.seed), escape(f"{p.get('version', '?')} ({p.get('git_describe', '?')})"), escape(str(p.get("precision", "?"))),
                      grouped(int(cost.get("grains") or 0)), duration(cost.get("wall_seconds") or float("nan")),
                      str(p.get("threads", "?")), escape(str(p.get("processor", "?"))), escape(str(p.get("compiler", "?"))),

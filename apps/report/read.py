@@ -142,19 +142,15 @@ class Run:
         given = particles.get("diameter")
         return float(domain.get("diameter_m") or (given if isinstance(given, (int, float)) else 1.0))
 
+    def moment(self, name):
+        """What summary.json says of a moment: kind, role, stage, walls and times; {} of one that it does not have."""
+        return next((m for m in self.summary.get("moments", []) if m["name"] == name), {})
+
     def walls(self, moment=None):
-        """Profiles of the walls that are there at a moment: those of the start without what its stages took away."""
-        there = {w.get("name"): w["profile"] for w in self.scene.get("wall", [])
-                 if isinstance(w.get("profile"), list) and w.get("present", True)}
-        every = {w.get("name"): w["profile"] for w in self.scene.get("wall", []) if isinstance(w.get("profile"), list)}
-        for stage in self.scene.get("stage", []) if moment else []:
-            for name in stage.get("remove") or []:
-                there.pop(name, None)
-            for name in stage.get("add") or []:
-                there[name] = every.get(name, [])
-            if moment in (stage.get("name"), f"{stage.get('name')}_mean"):
-                break
-        return list(there.values())
+        """Profiles of the walls that are there at a moment; of none, those of the start."""
+        all_walls = [w for w in self.scene.get("wall", []) if isinstance(w.get("profile"), list)]
+        there = self.moment(moment).get("walls", [w.get("name") for w in all_walls if w.get("present", True)])
+        return [w["profile"] for w in all_walls if w.get("name") in there]
 
     def widest(self):
         return max([abs(point[0]) for wall in self.walls() for point in wall] or [float("nan")])
@@ -186,6 +182,12 @@ class Run:
         if entry is None:
             return None
         return number(entry.get("value")), number(entry.get("low")), number(entry.get("high")), entry.get("unit") or ""
+
+    def scalar_names(self, moment):
+        """Quantities of the whole at a moment; from the CSV, else from the summary."""
+        table = self.table("scalars")
+        rows = list(table.pick(moment=moment, part="whole")["quantity"]) if table is not None else []
+        return rows or list((self.summary.get("scalars") or {}).get(moment, {}))
 
     def moments(self):
         return [m["name"] for m in self.summary.get("moments", [])]

@@ -100,10 +100,7 @@ def scalars(vessel, moment, members=None):
     names = []
     for e in members:
         for run in e.runs:
-            rows = run.table("scalars")
-            rows = rows.pick(moment=moment, part="whole")["quantity"] if rows is not None else []
-            rows = list(rows) or list((run.summary.get("scalars") or {}).get(moment, {}))
-            names += [n for n in rows if n not in names]
+            names += [n for n in run.scalar_names(moment) if n not in names]
     rows = []
     for name in names:
         unit = next((u for u in (e.unit(moment, name) for e in members) if u), "")
@@ -117,7 +114,7 @@ def scalars(vessel, moment, members=None):
                  f"Moment: {escape(vessel.when(moment))}. Means over seeds \u00b1 standard deviation over seeds; whole vessel.")
 
 
-GLANCE = [("packing", "rest"), ("cn", "rest"), ("cn", "mean"), ("core_cn", "mean"), ("load", "mean"), ("speed", "mean"),
+GLANCE = [("packing", "rest"), ("cn", "rest"), ("cn", "mean"), ("axis_zone_cn", "mean"), ("load", "mean"), ("speed", "mean"),
           ("axis_density_1d", "mean"), ("discharge_rate", "mean"), ("arched", "mean"), ("angle_of_repose", "end")]
 
 

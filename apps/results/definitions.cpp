@@ -65,8 +65,11 @@ std::string definitions_text() {
 std::string vocabulary_json() {
   nlohmann::ordered_json all;
   all["axis_zone_arc_d"] = axis_zone_arc;
-  for (const RegionKind kind : {RegionKind::axis_zone, RegionKind::rest})
-    all["region_labels"][name_of(kind)] = label_of(kind);
+  for (const RegionKind kind : {RegionKind::axis_zone, RegionKind::rest}) {
+    std::string of_sectors = name_of(RegionId{kind, 0});
+    of_sectors.replace(of_sectors.size() - 1, 1, "{n}");  // in place of the number
+    all["regions"][name_of(kind)] = {{"label", label_of(kind)}, {"of_sectors", of_sectors}};
+  }
   for (const TableName& table : table_names)
     all["tables"].push_back({{"name", table.name}, {"file", table.file}, {"says", table.says}});
   for (const ResultQuantity& q : quantities()) {

@@ -16,6 +16,14 @@ moments = [("settle", "instant", 0.5, 0.5, 1), ("open", "instant", 1.2, 1.2, 1),
 if not orifice:
     moments = [("settle", "instant", 0.5, 0.5, 1), ("collapse", "instant", 0.64, 0.64, 1), ("spread", "instant", 0.86, 0.86, 1),
                ("pile", "instant", 2.0, 2.0, 1)]
+
+
+def of_stage(moment):
+    stage = moment.removesuffix("_mean")
+    still = stage in ("settle", "pile")
+    return {"stage": stage, "role": "rest" if still else "flow", "walls": ["shell", "floor"] + (["plug"] if stage == "settle" else [])}
+
+
 instants = [m[0] for m in moments if m[1] == "instant"]
 number = random.Random(seed * 1000 + order)
 results = os.path.join(folder, "results")
@@ -68,7 +76,7 @@ domain = {"kind": "full" if full else "sector", "angle_deg": angle, "order": ord
           "radius_m": width / 2 * d, "orifice_m": orifice * d or None}
 cost = {"grains": 1200 // order, "steps": 1000, "wall_seconds": 100.0 / order, "threads": 1, "particle_steps_per_second": 1.2e7, "precision": "mixed"}
 summary = {"domain": domain, "cost": cost, "seed": seed,
-           "moments": [dict(zip(("name", "kind", "begin_s", "end_s", "frames"), m)) for m in moments],
+           "moments": [dict(zip(("name", "kind", "begin_s", "end_s", "frames"), m), **of_stage(m[0])) for m in moments],
            "scalars": {m: {q: {"value": v, "low": None, "high": None, "unit": u} for q, (v, u) in scalars().items()} for m in names}}
 with open(os.path.join(results, "summary.json"), "w") as file:
     json.dump(summary, file)
