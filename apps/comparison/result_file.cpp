@@ -50,7 +50,7 @@ bool ResultFile::next(const std::function<bool(PartId)>& wanted) {
     if (line.empty()) continue;
     const std::string name = part_field(line);
     const auto part = part_of(name);
-    if (!part) refuse_name(name, "part");
+    if (!part) refuse_name(name, "a part");
     part_ = *part;
     if (!wanted(part_)) continue;
     fields_ = split_csv_line(line);
@@ -79,7 +79,8 @@ void ResultFile::refuse(const std::string& what) const {
 }
 
 void ResultFile::refuse_name(const std::string& name, const std::string& what) const {
-  refuse("'" + name + "' is no " + what + " of this version of wedge; measure the run again: wedge analyse DIR");
+  refuse("'" + name + "' is not " + what +
+         " that this version of wedge knows; measure the run again: wedge analyse DIR");
 }
 
 bool ResultFile::next_line(std::string_view& line) {

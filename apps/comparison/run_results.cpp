@@ -35,7 +35,7 @@ void note(std::vector<T>& list, const T& entry) {
 
 const ResultQuantity& known(const ResultFile& file, const std::string& name, ResultTable table) {
   const ResultQuantity* found = find_quantity(name);
-  if (found == nullptr || !found->is_in(table)) file.refuse_name(name, "quantity of this table");
+  if (found == nullptr || !found->is_in(table)) file.refuse_name(name, "a quantity of this table");
   return *found;
 }
 
@@ -62,7 +62,7 @@ public:
                       counts = file.column("counts");
     while (next(file)) {
       known(file, file.text(quantity), in_distributions);
-      if (!region_of(file.text(region))) file.refuse_name(file.text(region), "region");
+      if (!region_of(file.text(region))) file.refuse_name(file.text(region), "a region");
       const ResultName name{file.text(0), file.text(1), file.text(region), file.text(quantity)};
       run_.distributions[name] =
           distribution(file, file.number(scale), file.number(step), file.number(first), file.numbers(counts));

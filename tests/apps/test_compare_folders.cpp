@@ -1,4 +1,5 @@
-// test_compare_folders.cpp: wedge compare on folders as `wedge analyse` leaves them: complete, incomplete and wrong.
+// test_compare_folders.cpp: wedge compare on folders as `wedge analyse` leaves them: complete, incomplete and
+// wrong.
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -279,10 +280,11 @@ TEST_CASE("A file of an analysis that is wrong is refused with its place", "[com
         std::make_pair(head + "settle,whole,all,vz,m/s,0,0,0,1 2\n", ":2: error: scale must be above 0"),
         std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0,1 -2\n", ":2: error: counts must be at least 0"),
         std::make_pair(head + "settle,whole,all,vz,m/s,1,0,0\n", ":2: error: expected 9 fields"),
-        std::make_pair(head + "settle,whole,core_90,vz,m/s,1,0,0,1 2\n",
-                       ":2: error: 'core_90' is no region of this version of wedge; measure the run again"),
-        std::make_pair(head + "settle,whole,all,core_cn,,1,0,0,1 2\n", ":2: error: 'core_cn' is no quantity"),
-        std::make_pair(head + "settle,wedge_90_0,all,vz,m/s,1,0,0,1 2\n", ":2: error: 'wedge_90_0' is no part"),
+        std::make_pair(
+            head + "settle,whole,core_90,vz,m/s,1,0,0,1 2\n",
+            ":2: error: 'core_90' is not a region that this version of wedge knows; measure the run again"),
+        std::make_pair(head + "settle,whole,all,core_cn,,1,0,0,1 2\n", ":2: error: 'core_cn' is not a quantity"),
+        std::make_pair(head + "settle,wedge_90_0,all,vz,m/s,1,0,0,1 2\n", ":2: error: 'wedge_90_0' is not a part"),
         std::make_pair(std::string("moment,part,area\n"), ":1: error: there is no column 'region'"),
         std::make_pair(std::string("stage,time\n"), ":1: error: this is not a table of `wedge analyse`"),
         std::make_pair(std::string(), ":1: error: the file is empty")}) {
