@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "core/axis.hpp"
 #include "core/material.hpp"
 #include "core/precision.hpp"
 
@@ -18,16 +19,6 @@ namespace wedge {
 
 enum class DomainKind { full, sector, slot };
 enum class Sides { periodic, rigid, frictionless };
-/// What happens at the axis of a sector (PHYSICS, section 3).
-enum class AxisRule {
-  clamp,   // a grain that reaches the axis loses its velocity towards it (Yang et al. 2014)
-  images,  // every copy acts, a grain's own copies included: exact symmetry
-  pin,     // a grain on the axis stays there for good and meets all copies of its neighbours (Cui et al. 2007)
-  line,    // a rigid, frictional line along the axis
-  hollow   // an inner cylinder cuts the axis out; every copy acts
-};
-/// Does a grain meet its own copies?
-constexpr bool meets_itself(AxisRule axis) { return axis == AxisRule::images || axis == AxisRule::hollow; }
 
 struct Domain {
   DomainKind kind = DomainKind::full;
@@ -35,11 +26,24 @@ struct Domain {
   double slot_width = 0;  // m, slot only, along y
   Sides sides = Sides::periodic;
   AxisRule axis = AxisRule::clamp;
-  double inner_radius = 0;               // m: of the inner cylinder, hollow only
-  int axis_material = 0;                 // of the line or the inner cylinder
+  double inner_radius = 0;               // m: of the cylinder around the axis, where the rule has one
+  int axis_material = 0;                 // of what stands around the axis
   Eigen::Vector3d gravity{0, 0, -9.81};  // m/s2
   std::optional<double> outlet_height;   // m: a grain whose centre falls below counts as discharged
 };
+
+/// The wall around the axis of this domain. A full vessel has the cylinder too, so that it can be compared with its
+/// sectors; a line stands for what only a sector lacks.
+inline AxisWall wall_around_axis(const Domain& domain) {
+  const AxisWall wall = traits_of(domain.axis).wall;
+  const bool stands =
+      wall == AxisWall::line ? domain.kind == DomainKind::sector : domain.kind != DomainKind::slot;
+  return stands ? wall : AxisWall::none;
+}
+/// Radius [m] of what the wall around the axis cuts out of the vessel.
+inline double cut_out_radius(const Domain& domain) {
+  return is_cylinder(domain.axis) ? domain.inner_radius : 0.0;
+}
 
 /// Copies of the domain that make the whole vessel: n of a sector, whatever its sides; a slot is all there is.
 inline double copies_in_vessel(const Domain& domain) {

@@ -93,19 +93,17 @@ void Vessel::add_side_planes(const Domain& domain) {
   }
 }
 
-/// The line or the inner cylinder that the axis rule puts in. A full vessel has the cylinder too, so that it can be
-/// compared with its sectors; a line stands for what only a sector lacks.
+/// The line or the inner cylinder that the axis rule puts in.
 void Vessel::add_core(const Domain& domain) {
-  const bool line = domain.axis == AxisRule::line && domain.kind == DomainKind::sector;
-  const bool cylinder = domain.axis == AxisRule::hollow && domain.kind != DomainKind::slot;
-  if (!line && !cylinder) return;
+  const AxisWall around = wall_around_axis(domain);
+  if (around == AxisWall::none) return;
   WallDescription wall;
-  wall.name = line ? "axis line" : "inner cylinder";
+  wall.name = around == AxisWall::line ? "axis line" : "inner cylinder";
   wall.material = domain.axis_material;
   WallFeature core;
   core.kind = WallFeature::Kind::core;
   core.wall = wall_count();
-  core.core_radius = line ? 0.0 : domain.inner_radius;
+  core.core_radius = cut_out_radius(domain);
   walls_.push_back(wall);
   features_.push_back(core);
 }

@@ -15,13 +15,8 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
   if (friction == Friction::sliding) level.emplace<1>();
   if (friction == Friction::rolling) level.emplace<2>();
   if (has_couples(friction)) level.emplace<3>();  // whence a couple comes makes no difference here
-  std::variant<std::integral_constant<AxisAction, AxisAction::none>,
-               std::integral_constant<AxisAction, AxisAction::clamp>,
-               std::integral_constant<AxisAction, AxisAction::pin>>
-      action;
   const bool sector = state.symmetry.kind() == Symmetry::Kind::rotation;
-  if (sector && scene.domain.axis == AxisRule::clamp) action.emplace<1>();
-  if (sector && scene.domain.axis == AxisRule::pin) action.emplace<2>();
+  const AnyAxisAction action = as_type(sector ? traits_of(scene.domain.axis).action : AxisAction::none);
   std::variant<std::false_type, std::true_type> alike;
   if (uniform && state.particles.count() > 0) alike.emplace<1>();
 

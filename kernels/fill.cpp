@@ -124,8 +124,7 @@ Vec3 draw_place(const Scene& scene, const RandomFill& fill, double radius, Rando
     const double left = fill.r_low + radius;
     return {left + a * (high - left), b * scene.domain.slot_width, z};
   }
-  const double inner =
-      std::max(fill.r_low, scene.domain.axis == AxisRule::hollow ? scene.domain.inner_radius : 0.0);
+  const double inner = std::max(fill.r_low, cut_out_radius(scene.domain));
   const double low = inner + (inner > 0 ? radius : 0);
   const double r = std::sqrt(low * low + a * (high * high - low * low)), phi = b * 2 * pi / scene.domain.order;
   return {r * std::cos(phi), r * std::sin(phi), z};

@@ -110,36 +110,14 @@ std::int64_t grains_here(const Scene& scene) {
 }
 
 void print_axis(const Domain& domain) {
-  if (domain.axis == AxisRule::hollow) {
-    std::cout << "  axis: hollow: an inner cylinder of radius " << short_number(domain.inner_radius)
-              << " m; in a sector every copy acts\n";
-    return;
-  }
-  if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic) {
+  const bool cylinder = is_cylinder(domain.axis);
+  if (!cylinder && (domain.kind != DomainKind::sector || domain.sides != Sides::periodic)) {
     std::cout << "  axis: no rule is needed here\n";
     return;
   }
-  std::cout << "  axis: " << axis_names.of(domain.axis) << ": ";
-  switch (domain.axis) {
-    case AxisRule::clamp:
-      std::cout
-          << "a grain whose surface reaches the axis loses its velocity towards it, and does not meet its own "
-             "images\n";
-      break;
-    case AxisRule::images:
-      std::cout << "a grain near the axis meets its own images, as in a vessel of exact " << domain.order
-                << "-fold symmetry\n";
-      break;
-    case AxisRule::pin:
-      std::cout
-          << "a grain within 0.05 of its radius of the axis no longer moves sideways; it meets every image of "
-             "its neighbours\n";
-      break;
-    case AxisRule::line:
-    case AxisRule::hollow:
-      std::cout << "a rigid, frictional line that no grain's surface passes\n";
-      break;
-  }
+  std::cout << "  axis: " << axis_names.of(domain.axis) << ": " << traits_of(domain.axis).meaning;
+  if (cylinder) std::cout << "; its radius is " << short_number(domain.inner_radius) << " m";
+  std::cout << '\n';
 }
 
 void print_domain(const Scene& scene, std::int64_t grains) {

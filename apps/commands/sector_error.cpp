@@ -36,6 +36,7 @@ constexpr SectorLaw pile_laws[] = {
 // Share that stops: 1 / (1 + exp((theta (D0 / d - rim) - middle) / width)); the same command, "stops".
 constexpr double stop_rim = 4.5, stop_middle = 3.65, stop_middle_uncertainty = 0.10, stop_width = 0.49;
 constexpr double doubtful_share = 0.05;
+const AxisRule studied_axis = Domain().axis;  // the study left the axis as it is when a scene says nothing
 
 // theta D0 / d, an arc of 2 d at the rim: the flow laws were not fitted to thinner sectors.
 constexpr double least_rim = 4;
@@ -91,7 +92,7 @@ SectorExpectation expected_errors(const SectorSize& sector) {
 std::optional<SectorExpectation> expected_errors(const Scene& scene) {
   const Domain& domain = scene.domain;
   const double diameter = mean_diameter(scene.particles), radius = widest_radius(scene);
-  if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic || domain.axis != AxisRule::clamp ||
+  if (domain.kind != DomainKind::sector || domain.sides != Sides::periodic || domain.axis != studied_axis ||
       !(diameter > 0 && radius > 0))
     return std::nullopt;
   return expected_errors({2 * numbers::pi / domain.order, 2 * radius / diameter, orifice_diameter(scene) / diameter,

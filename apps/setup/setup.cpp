@@ -10,10 +10,10 @@
 #include "core/require.hpp"
 #include "core/time_scales.hpp"
 #include "io/files/checkpoint.hpp"
+#include "io/scene/names.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/tables/state_csv.hpp"
 #include "kernels/fill.hpp"
-#include "kernels/passes/integrate.hpp"
 #include "kernels/time_step.hpp"
 
 namespace wedge {
@@ -34,10 +34,11 @@ void read_grains(State& state, const Scene& scene, const StateFile& file) {
       throw SceneError(text.str());
     }
     const bool at_axis = std::hypot(x.x, x.y) < 2 * p.radius[s] * axis_resolution;
-    if (at_axis && scene.domain.kind == DomainKind::sector && scene.domain.axis == AxisRule::images) {
-      text << file.path << ": grain " << p.id[s]
-           << " lies on the axis, where axis = \"images\" gives it copies of itself at its own place. Move it, or "
-              "use axis = \"clamp\".";
+    if (at_axis && scene.domain.kind == DomainKind::sector && needs_way_to_axis(scene.domain.axis)) {
+      text << file.path << ": grain " << p.id[s] << " lies on the axis, where axis = \""
+           << axis_names.of(scene.domain.axis)
+           << "\" gives it copies of itself at its own place. Move it, or use axis = \""
+           << axis_names.of(Domain().axis) << "\".";
       throw SceneError(text.str());
     }
   }

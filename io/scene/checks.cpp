@@ -29,9 +29,7 @@ std::set<int> wall_materials(const Scene& scene) {
   for (const WallDescription& wall : scene.walls) used.insert(wall.material);
   const bool side_planes = scene.domain.kind != DomainKind::full && scene.domain.sides == Sides::rigid;
   if (side_planes && scene.walls.empty()) used.insert(0);  // what Vessel gives them
-  const Domain& domain = scene.domain;
-  if (domain.axis == AxisRule::hollow || (domain.axis == AxisRule::line && domain.kind == DomainKind::sector))
-    used.insert(domain.axis_material);
+  if (wall_around_axis(scene.domain) != AxisWall::none) used.insert(scene.domain.axis_material);
   return used;
 }
 
@@ -184,7 +182,7 @@ double widest_radius(const Scene& scene) {
 double fill_volume(const Domain& domain, const RandomFill& fill) {
   const double height = fill.z_high - fill.z_low;
   if (domain.kind == DomainKind::slot) return (fill.r_high - fill.r_low) * domain.slot_width * height;
-  const double inner = domain.axis == AxisRule::hollow ? std::max(fill.r_low, domain.inner_radius) : fill.r_low;
+  const double inner = is_cylinder(domain.axis) ? std::max(fill.r_low, cut_out_radius(domain)) : fill.r_low;
   return numbers::pi * (fill.r_high * fill.r_high - inner * inner) * height;
 }
 

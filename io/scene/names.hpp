@@ -25,6 +25,14 @@ struct Names {
     for (const auto& entry : built) all.push_back(entry.first);
     return all;
   }
+  /// The words whose meaning is of a kind, as in "line" or "hollow".
+  template <class IsOfKind>
+  std::string choice_of(IsOfKind&& is_of_kind) const {
+    std::string text;
+    for (const auto& [word, meaning] : built)
+      if (is_of_kind(meaning)) text += (text.empty() ? "\"" : " or \"") + word + '"';
+    return text;
+  }
 };
 
 inline const Names<DomainKind> domain_kind_names{

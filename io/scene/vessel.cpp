@@ -66,17 +66,18 @@ std::optional<int> only_grain_material(const Scene& scene) {
 void read_axis(TableReader& t, const Scene& scene, Domain& domain) {
   domain.axis = t.choice("axis", axis_names).value_or(domain.axis);
   const Quantity radius = Quantity::positive("the radius of the inner cylinder, such as 0.02 or \"10 d\"");
-  const bool hollow = domain.axis == AxisRule::hollow, solid = hollow || domain.axis == AxisRule::line;
+  const bool hollow = is_cylinder(domain.axis), solid = is_solid(domain.axis);
   if (hollow && domain.kind == DomainKind::slot) t.error("axis", "a slot has no axis to cut out", "remove 'axis'");
   if (hollow && !t.has("inner_radius")) t.missing("inner_radius", radius.meaning);
   if (!hollow && t.has("inner_radius"))
-    t.error("inner_radius", "only the axis 'hollow' has an inner radius", "write axis = \"hollow\", or remove it");
+    t.error("inner_radius", "the axis '" + axis_names.of(domain.axis) + "' has no inner radius",
+            "write axis = " + axis_names.choice_of(is_cylinder) + ", or remove it");
   domain.inner_radius = t.length("inner_radius", radius).value_or(0);
   if (solid)
     domain.axis_material = read_wall_material(t, scene, "axis_material", only_grain_material(scene)).value_or(0);
   if (!solid && t.has("axis_material"))
     t.error("axis_material", "the axis '" + axis_names.of(domain.axis) + "' is made of nothing",
-            "write axis = \"line\" or \"hollow\", or remove it");
+            "write axis = " + axis_names.choice_of(is_solid) + ", or remove it");
 }
 
 std::vector<Eigen::Vector2d> read_profile(TableReader& t, bool slot) {

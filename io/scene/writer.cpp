@@ -69,8 +69,8 @@ void write_domain(Writer& w, const Scene& scene) {
     w.line("angle", number(360.0 / domain.order));
   w.line("sides", quoted(sides_names.of(domain.sides)));
   w.line("axis", quoted(axis_names.of(domain.axis)));
-  if (domain.axis == AxisRule::hollow) w.line("inner_radius", number(domain.inner_radius));
-  if (domain.axis == AxisRule::hollow || domain.axis == AxisRule::line)
+  if (is_cylinder(domain.axis)) w.line("inner_radius", number(domain.inner_radius));
+  if (is_solid(domain.axis))
     w.line("axis_material", quoted(scene.materials[static_cast<std::size_t>(domain.axis_material)].name));
   w.line("gravity", "[" + number(domain.gravity.x()) + ", " + number(domain.gravity.y()) + ", " +
                         number(domain.gravity.z()) + "]");

@@ -7,7 +7,6 @@
 #include "core/parallel.hpp"
 #include "core/require.hpp"
 #include "kernels/neighbours/neighbours.hpp"
-#include "kernels/passes/integrate.hpp"
 
 namespace wedge {
 namespace {
@@ -68,12 +67,10 @@ private:
 
   /// Is the pair of grain i and the copy of `owner` at this turn computed, and from the side of i? One side
   /// computes a seam pair: the grain with the smaller id; a grain meets each of its own copies k and -k once, at
-  /// the positive turn. A grain pinned to the axis meets every copy, and they do not meet it.
+  /// the positive turn. A grain held on the axis meets every copy, and they do not meet it.
   bool ours(Index i, Index owner, int turn) const {
-    if (axis_ == AxisRule::pin) {
-      if (on_axis(p_.position.x[at(i)], p_.position.y[at(i)], p_.radius[at(i)])) return true;
-      if (turn != 1 && turn != -1) return false;
-    }
+    if (held_on_axis(axis_, p_.position.x[at(i)], p_.position.y[at(i)], p_.radius[at(i)])) return true;
+    if (!every_copy_acts(axis_) && turn != 1 && turn != -1) return false;
     if (owner == i) return meets_itself(axis_) && turn > 0;
     return p_.id[at(owner)] > p_.id[at(i)];
   }

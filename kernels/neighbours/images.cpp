@@ -3,16 +3,15 @@
 
 #include "core/parallel.hpp"
 #include "kernels/neighbours/neighbours.hpp"
-#include "kernels/passes/integrate.hpp"
 
 namespace wedge {
 namespace {
 
-/// Turns at which copies may act: every one for exact symmetry and for a grain pinned to the axis, the next ones
+/// Turns at which copies may act: every one where every copy acts or a grain is held on the axis, the next ones
 /// otherwise.
 std::vector<int> acting_turns(const Symmetry& symmetry, AxisRule axis) {
   if (symmetry.kind() == Symmetry::Kind::translation) return {-1, 1};
-  const bool every = meets_itself(axis) || axis == AxisRule::pin;
+  const bool every = every_copy_acts(axis) || holds_on_axis(axis);
   std::vector<int> turns;
   for (int k = 1; k < symmetry.order(); ++k) {
     const int residue = symmetry.residue(k);
@@ -66,7 +65,7 @@ void make_images(State& state, AxisRule axis) {
       const double reach = widest + p.radius[s] + p.list_margin[s];
       const Vec3 x = p.position.get(s);
       if (state.symmetry.distance_to_face(x) > reach) continue;
-      if (axis == AxisRule::pin && on_axis(x.x, x.y, p.radius[s])) continue;  // its copies act on nobody
+      if (held_on_axis(axis, x.x, x.y, p.radius[s])) continue;  // its copies act on nobody
       for (const int k : turns) {
         if (state.symmetry.distance_to_domain(x, k) > reach) continue;
         images.owner.push_back(i);

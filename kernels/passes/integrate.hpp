@@ -4,15 +4,9 @@
 #include "core/state.hpp"
 #include "kernels/laws/contact_law.hpp"
 #include "kernels/laws/friction.hpp"
+#include "kernels/passes/axis_velocity.hpp"
 
 namespace wedge {
-
-/// Does the axis act on the velocities?
-enum class AxisAction { none, clamp, pin };
-
-/// A grain closer to the axis than this part of its diameter has no radial direction; the axis rule leaves it
-/// alone.
-inline constexpr double axis_resolution = 1e-9;
 
 /// Velocity after a kick of length h [s] by the force f [N] and gravity g [m/s2]. Here and below: for one grain, or
 /// for a pack of them.
@@ -31,35 +25,6 @@ template <class Real>
 WEDGE_INLINE Real taken(const Real& mass, const Vector3<Real>& v, const Vector3<Real>& free,
                         const Vector3<Real>& now) {
   return 0.5 * mass * dot(free - now, v + now);
-}
-
-/// The axis rule `clamp` (Yang et al. 2014, eqs 12-17): a grain whose surface reaches the axis and that moves
-/// towards it loses its radial velocity.
-template <class Real>
-WEDGE_INLINE Vector3<Real> clamped_at_axis(const Vector3<Real>& v, const Vector3<Real>& position,
-                                           const Real& radius) {
-  const Real r2 = position.x * position.x + position.y * position.y;
-  const Real outward = position.x * v.x + position.y * v.y;  // r v_r
-  const Real nearest = 2 * axis_resolution * radius;
-  const auto reaches = r2 < radius * radius && r2 >= nearest * nearest && outward < 0;
-  if (!any_lane(reaches)) return v;  // most grains are far from the axis
-  const Real take = select(reaches, outward / r2, Real(0.0));
-  return {v.x - take * position.x, v.y - take * position.y, v.z};
-}
-
-/// Whether a grain is on the axis as the axis rule `pin` sees it: closer than 0.05 of its radius (Cui et al. 2007).
-/// Such a grain no longer moves sideways, so it stays on the axis.
-template <class Real>
-WEDGE_INLINE auto on_axis(const Real& x, const Real& y, const Real& radius) {
-  return x * x + y * y < 0.0025 * radius * radius;
-}
-
-/// The axis rule `pin`: a grain on the axis has no velocity but along it.
-template <class Real>
-WEDGE_INLINE Vector3<Real> pinned_at_axis(const Vector3<Real>& v, const Vector3<Real>& position,
-                                          const Real& radius) {
-  const Real keep = select(on_axis(position.x, position.y, radius), Real(0.0), Real(1.0));
-  return {keep * v.x, keep * v.y, v.z};
 }
 
 /// Angular velocity after a kick of length h by the torque t [N m] while rolling friction resists up to `cap` [N
@@ -101,8 +66,7 @@ WEDGE_INLINE void half_kick(const Real& radius, const Real& mass, const ForcesOf
   if constexpr (axis == AxisAction::none) {
     v = free;
   } else {
-    const Vector3<Real> now =
-        axis == AxisAction::clamp ? clamped_at_axis(free, x, radius) : pinned_at_axis(free, x, radius);
+    const Vector3<Real> now = at_axis<axis>(free, x, radius);
     losses.axis += taken(mass, v, free, now);
     v = now;
   }

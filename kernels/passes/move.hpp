@@ -220,7 +220,7 @@ private:
       const Vector3<Real> reference = reference_.get<Real>(i), way = x - reference;
       const Real margin = load<Real>(margin_ + i);
       losses.outside += select(dot(way, way) <= margin * margin, Real(0.0), Real(1.0));
-      if constexpr (axis == AxisAction::pin)  // who is newly on the axis meets others than before
+      if constexpr (holds_on_axis(axis))  // who is newly on the axis meets others than before
         losses.outside +=
             select(on_axis(x.x, x.y, radius) && !on_axis(reference.x, reference.y, radius), Real(1.0), Real(0.0));
     }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "kernels/passes/integrate.hpp"
+#include "core/axis.hpp"
 
 namespace wedge {
 namespace {
@@ -22,7 +22,7 @@ bool has_reaction(const State& state, AxisRule axis, std::size_t k) {
   const Index image = c.second[k] - p.count();
   if (image < 0) return true;
   const std::size_t i = at(c.first[k]);
-  if (axis == AxisRule::pin && on_axis(p.position.x[i], p.position.y[i], p.radius[i])) return false;
+  if (held_on_axis(axis, p.position.x[i], p.position.y[i], p.radius[i])) return false;
   return !row_is_shared(state, k);
 }
 

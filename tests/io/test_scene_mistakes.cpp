@@ -114,7 +114,7 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"stage.settle.until=emty"}, "did you mean 'empty'? Or write until = 0.7 (s), \"at rest\"");
   refused({"particles.region.r=[0.04, 0.01]"}, "'r' must rise");
   refused({"domain.axis=hollow"}, "'inner_radius' is missing");
-  refused({"domain.inner_radius=0.01"}, "only the axis 'hollow' has an inner radius");
+  refused({"domain.inner_radius=0.01"}, "the axis 'clamp' has no inner radius");
   refused({"domain.axis_material=steel"}, "is made of nothing");
   refused({"contact.rolling=none", "contact.rolling_velocity=relative"}, "only applies to rolling");
   refused({"contact.rolling_damping=0.3"}, "only applies to rolling");
