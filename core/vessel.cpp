@@ -12,11 +12,6 @@ namespace {
 
 constexpr double join_distance = 1e-9;  // m: closer ends of profiles are one edge
 
-/// Where along a segment a point of the half plane projects: its arc length, unclamped.
-double arc_length(const WallFeature& segment, const Eigen::Vector2d& q) {
-  return (q - segment.start).dot(segment.direction);
-}
-
 }  // namespace
 
 Vessel::Vessel(const Scene& scene) : slot_(scene.domain.kind == DomainKind::slot), walls_(scene.walls) {
@@ -156,11 +151,11 @@ namespace {
   WallProximity result;
   result.minimum = true;
   if (x.kind == WallFeature::Kind::plane) {
-    const double height = dot(p, x.plane_normal) - x.plane_offset;
+    const double height = height_over_plane(x, p);
     result.distance = std::abs(height);
     result.normal = height < 0 ? x.plane_normal : -x.plane_normal;
   } else {
-    const double r = std::sqrt(p.x * p.x + p.y * p.y), beyond = r - x.core_radius;
+    const double r = std::sqrt(p.x * p.x + p.y * p.y), beyond = beyond_core(x, r);
     result.distance = std::abs(beyond);
     if (r > 0) result.normal = (beyond < 0 ? 1 / r : -1 / r) * Vec3{p.x, p.y, 0};
   }
@@ -177,28 +172,24 @@ WallProximity Vessel::proximity(int f, Vec3 p) const {
   // The half plane through the axis and the point; on the axis itself the one with phi = 0.
   const double r = slot_ ? p.x : std::sqrt(p.x * p.x + p.y * p.y);
   const Vec3 outward = slot_ || r == 0 ? Vec3{1, 0, 0} : Vec3{p.x / r, p.y / r, 0};
-  const Eigen::Vector2d q(r, p.z - travel(x.wall));
-  Eigen::Vector2d nearest;
+  const double z = p.z - travel(x.wall);
+  const WayToProfile<double> way = way_to_profile(x, r, z);
   if (x.kind == WallFeature::Kind::segment) {
-    const double s = arc_length(x, q);
-    result.minimum = s > 0 && s < x.length;
-    nearest = x.start + std::clamp(s, 0.0, x.length) * x.direction;
+    result.minimum = way.arc > 0 && way.arc < x.length;
   } else {
-    nearest = x.start;
     result.minimum = true;
     for (const int n : x.neighbours) {  // an edge counts where no segment that meets it comes closer
       const WallFeature& segment = feature(n);
       if (!present(segment.wall)) continue;
-      const double s = arc_length(segment, q);
+      const double s = way_to_profile(segment, r, z).arc;
       const bool edge_is_start = (segment.start - x.start).squaredNorm() < join_distance * join_distance;
       if (edge_is_start ? s > 0 : s < segment.length) result.minimum = false;
     }
   }
-  const Eigen::Vector2d away = nearest - q;
-  result.distance = away.norm();
+  result.distance = way.distance;
   if (result.distance > 0) {
-    const double toward = away.x() / result.distance;
-    result.normal = {toward * outward.x, toward * outward.y, away.y() / result.distance};
+    const double toward = way.u / result.distance;
+    result.normal = {toward * outward.x, toward * outward.y, way.z / result.distance};
   }
   return result;
 }

@@ -2,6 +2,8 @@
 // planes, and an endless cylinder around the axis.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,35 @@ struct WallFeature {
   double plane_offset = 0;          // m: plane is dot(x, plane_normal) = plane_offset
   double core_radius = 0;           // m: endless cylinder around z; 0: the axis itself as a line
 };
+
+/// The way from a point of the half plane to the nearest point of a segment, or of an edge, which is one of no
+/// length. For one point, or for a pack of them.
+template <class Real>
+struct WayToProfile {
+  Real arc;             // m: where along the segment the point projects, not cut at its ends
+  Real u, z, distance;  // m
+};
+/// From the point (u, z) [m] of the wall as it was drawn: z is less what the wall has travelled.
+template <class Real>
+inline WayToProfile<Real> way_to_profile(const WallFeature& f, const Real& u, const Real& z) {
+  using std::max, std::min, std::sqrt;
+  WayToProfile<Real> way;
+  way.arc = (u - f.start.x()) * f.direction.x() + (z - f.start.y()) * f.direction.y();
+  const Real along = max(Real(0.0), min(Real(f.length), way.arc));
+  way.u = f.start.x() + along * f.direction.x() - u;
+  way.z = f.start.y() + along * f.direction.y() - z;
+  way.distance = sqrt(way.u * way.u + way.z * way.z);
+  return way;
+}
+/// Signed distance [m] of a point from a plane, and from the endless cylinder at its distance r [m] from the axis.
+template <class Real>
+inline Real height_over_plane(const WallFeature& f, const Vector3<Real>& p) {
+  return p.x * f.plane_normal.x + p.y * f.plane_normal.y + p.z * f.plane_normal.z - f.plane_offset;
+}
+template <class Real>
+inline Real beyond_core(const WallFeature& f, const Real& r) {
+  return r - f.core_radius;
+}
 
 /// Where a wall feature is nearest to a point.
 struct WallProximity {

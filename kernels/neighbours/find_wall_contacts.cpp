@@ -27,22 +27,18 @@ public:
       features_.push_back({&vessel.feature(f), vessel.travel(vessel.feature(f).wall)});
   }
   Pack::mask_type operator()(const PackVec3& x, const Pack& reach) const {
-    using std::abs, std::max, std::min, std::sqrt;
+    using std::abs, std::sqrt;
     const Pack r = slot_ ? x.x : sqrt(x.x * x.x + x.y * x.y), wide = 1.000001 * reach;  // more than round-off
     Pack::mask_type near(false);
     for (const Placed& placed : features_) {
       const WallFeature& f = *placed.feature;
       Pack distance;
       if (f.kind == WallFeature::Kind::plane) {
-        distance = abs(dot(x, PackVec3{Pack(f.plane_normal.x), Pack(f.plane_normal.y), Pack(f.plane_normal.z)}) -
-                       f.plane_offset);
+        distance = abs(height_over_plane(f, x));
       } else if (f.kind == WallFeature::Kind::core) {
-        distance = abs(r - f.core_radius);
-      } else {  // a segment; an edge is one of no length
-        const Pack u = r - f.start.x(), z = x.z - placed.travel - f.start.y();
-        const Pack along = max(Pack(0.0), min(Pack(f.length), u * f.direction.x() + z * f.direction.y()));
-        const Pack du = u - along * f.direction.x(), dz = z - along * f.direction.y();
-        distance = sqrt(du * du + dz * dz);
+        distance = abs(beyond_core(f, r));
+      } else {
+        distance = way_to_profile(f, r, Pack(x.z - placed.travel)).distance;
       }
       near = near || distance < wide;
     }
