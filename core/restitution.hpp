@@ -13,7 +13,7 @@
 namespace wedge {
 
 /// beta / c.
-inline double oscillator_damping(ContactLaw law) { return law == ContactLaw::linear ? 1.0 : std::sqrt(6.0 / 5.0); }
+inline double oscillator_damping(ContactLaw law) { return is_hertzian(law) ? std::sqrt(6.0 / 5.0) : 1.0; }
 
 /// Restitution of a head-on impact with damping ratio c >= 0. A contact that may pull lasts for half a period, and
 /// for ever from beta = 1 on; one that may not ends when the force is zero: Schwager & Poschel (2007), Granul.
@@ -36,7 +36,7 @@ inline double damping_for(ContactLaw law, Tension tension, double restitution) {
   if (restitution >= 1) return 0;
   const double l = -std::log(restitution);
   if (tension == Tension::full) {
-    const double share = law == ContactLaw::linear ? 1.0 : std::sqrt(5.0 / 6.0);
+    const double share = is_hertzian(law) ? std::sqrt(5.0 / 6.0) : 1.0;
     return share * l / std::hypot(3.14159265358979323846, l);
   }
   double low = 0, high = 1;

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "core/axis.hpp"
+#include "core/contact_laws.hpp"
 #include "core/material.hpp"
 #include "core/precision.hpp"
 
@@ -36,14 +37,11 @@ struct Domain {
 /// sectors; a line stands for what only a sector lacks.
 inline AxisWall wall_around_axis(const Domain& domain) {
   const AxisWall wall = traits_of(domain.axis).wall;
-  const bool stands =
-      wall == AxisWall::line ? domain.kind == DomainKind::sector : domain.kind != DomainKind::slot;
+  const bool stands = wall == AxisWall::line ? domain.kind == DomainKind::sector : domain.kind != DomainKind::slot;
   return stands ? wall : AxisWall::none;
 }
 /// Radius [m] of what the wall around the axis cuts out of the vessel.
-inline double cut_out_radius(const Domain& domain) {
-  return is_cylinder(domain.axis) ? domain.inner_radius : 0.0;
-}
+inline double cut_out_radius(const Domain& domain) { return is_cylinder(domain.axis) ? domain.inner_radius : 0.0; }
 
 /// Copies of the domain that make the whole vessel: n of a sector, whatever its sides; a slot is all there is.
 inline double copies_in_vessel(const Domain& domain) {
@@ -61,7 +59,6 @@ struct WallDescription {
   bool present = true;  // false: waits until a stage adds it
 };
 
-enum class ContactLaw { mindlin_deresiewicz, hertz_mindlin, linear };
 enum class RollingModel { none, constant_torque, elastic_plastic_spring };
 enum class RollingVelocity {
   own,
@@ -77,7 +74,8 @@ struct ContactModel {
   double rolling_damping = 0.3;  // ratio of critical, of the rolling spring
   Tension tension = Tension::full;
   Coulomb coulomb = Coulomb::printed;
-  // linear only: k_n, or the contact time from which it follows; k_t = tangential_ratio * k_n
+  // Laws whose stiffness the scene gives: k_n, or the contact time from which it follows; k_t = tangential_ratio *
+  // k_n
   double normal_stiffness = 0;  // N/m
   double contact_time = 0;      // s
   double tangential_ratio = 2.0 / 7.0;

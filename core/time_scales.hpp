@@ -63,9 +63,9 @@ inline double collision_time(const Scene& scene, double speed) {
   return time;
 }
 
-/// Law `linear`: time [s] the two lightest grains touch, pi sqrt(m*/k_n), m* half the mass of one; 0 when not
-/// known.
-inline double linear_contact_time(const Scene& scene) {
+/// Time [s] the two lightest grains of a scene touch where it gives the stiffness: pi sqrt(m*/k_n), m* half the
+/// mass of one; 0 when not known.
+inline double given_contact_time(const Scene& scene) {
   if (scene.contact.contact_time > 0) return scene.contact.contact_time;
   const double d = smallest_diameter(scene.particles);
   if (!(d > 0 && scene.contact.normal_stiffness > 0)) return 0;
@@ -92,13 +92,30 @@ inline double damping_shortens(const Scene& scene) { return std::max(1.0, larges
 /// The part of the Rayleigh time that "auto" takes.
 inline double automatic_part(const Scene& scene) { return 0.1 / damping_shortens(scene); }
 
-/// Time step [s] of a scene: the one it gives, or, for "auto", 10 % of the smallest Rayleigh time, less for damping
-/// ratios above 0.3 (law `linear`: 1/50 of the contact time, Luding, European Journal of Environmental and Civil
-/// Engineering 12 (2008) 785-826).
+/// The time that limits the step of a scene, and how long steps may be [s].
+struct StepScale {
+  const char* name;  // of the time
+  double time;       // s; 0: not known
+  double automatic;  // what "auto" takes
+  double doubtful;   // from which on a bed may be heated
+  double refused;    // from which on it is no simulation
+};
+/// The smallest Rayleigh time, or the contact time where the scene gives the stiffness, of which 1/50 is usual:
+/// Luding, European Journal of Environmental and Civil Engineering 12 (2008) 785-826. From 25 % of
+/// the Rayleigh time on a bed may never come to rest (tests/README.md, "Hard cases").
+inline StepScale step_scale(const Scene& scene) {
+  if (stiffness_is_given(scene.contact.law)) {
+    const double time = given_contact_time(scene);
+    return {"contact", time, time / 50, 1.0 / 20.0 * time, 1.0 / 5.0 * time};
+  }
+  const double time = rayleigh_time(scene);
+  return {"Rayleigh", time, automatic_part(scene) * time, 20.0 / 100.0 / damping_shortens(scene) * time,
+          40.0 / 100.0 * time};
+}
+
+/// Time step [s] of a scene: the one it gives, or, for "auto", the automatic one.
 inline double chosen_time_step(const Scene& scene) {
-  if (scene.time_step > 0) return scene.time_step;
-  return scene.contact.law == ContactLaw::linear ? linear_contact_time(scene) / 50
-                                                 : automatic_part(scene) * rayleigh_time(scene);
+  return scene.time_step > 0 ? scene.time_step : step_scale(scene).automatic;
 }
 
 }  // namespace wedge

@@ -73,15 +73,14 @@ std::vector<double> meeting_speeds(const Scene& scene) {
 
 void print_time_step(const Scene& scene, double step, const std::string& name) {
   std::cout << "  " << name << ": " << short_number(step) << " s";
-  const bool linear = scene.contact.law == ContactLaw::linear;
-  const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
-  if (!(scale > 0)) {
+  const StepScale scale = step_scale(scene);
+  if (!(scale.time > 0)) {
     std::cout << " (not compared: grain sizes are in the particle file)\n";
     return;
   }
-  std::cout << " = " << short_number(100 * step / scale) << " % of the " << (linear ? "contact" : "Rayleigh")
-            << " time, " << short_number(scale) << " s\n";
-  if (linear) return;
+  std::cout << " = " << short_number(100 * step / scale.time) << " % of the " << scale.name << " time, "
+            << short_number(scale.time) << " s\n";
+  if (!is_hertzian(scene.contact.law)) return;
   for (const double speed : meeting_speeds(scene)) {
     const double contact = collision_time(scene, speed);
     std::cout << "    a collision at " << short_number(std::round(speed * 1000) / 1000) << " m/s lasts "

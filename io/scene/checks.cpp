@@ -68,7 +68,7 @@ void check_rolling(SceneReading& reading, const Scene& scene) {
 
 /// A contact time is half a period of the damped spring: from critical damping on there is none.
 void check_contact_time(SceneReading& reading, const Scene& scene) {
-  if (scene.contact.law != ContactLaw::linear || !(scene.contact.contact_time > 0)) return;
+  if (!stiffness_is_given(scene.contact.law) || !(scene.contact.contact_time > 0)) return;
   for (const Interaction& pair : scene.interactions.entries()) {
     const double damping = pair.restitution && *pair.restitution > 0
                                ? damping_for(scene.contact.law, scene.contact.tension, *pair.restitution)
@@ -133,16 +133,14 @@ void check_thickness(SceneReading& reading, const Scene& scene) {
 
 void check_step(SceneReading& reading, const Scene& scene, double step, const std::string& path) {
   if (!(step > 0) || !materials_sound(scene)) return;
-  const bool linear = scene.contact.law == ContactLaw::linear;
-  const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
-  const double limit = (linear ? refused_linear_step : refused_step) * scale;
-  if (scale > 0 && step > limit)
+  const StepScale scale = step_scale(scene);
+  if (scale.time > 0 && step > scale.refused)
     reading.diagnostics.error(reading.place(path),
-                              "a time step of " + plain_number(step) + " s is " + short_number(100 * step / scale) +
-                                  " % of the " + (linear ? "contact time, " : "Rayleigh time, ") +
-                                  short_number(scale) + " s",
-                              "use at most " + short_number(limit) + " s, or better \"auto\", which is " +
-                                  short_number(scale * (linear ? 1.0 / 50 : automatic_part(scene))) + " s");
+                              "a time step of " + plain_number(step) + " s is " +
+                                  short_number(100 * step / scale.time) + " % of the " + scale.name + " time, " +
+                                  short_number(scale.time) + " s",
+                              "use at most " + short_number(scale.refused) + " s, or better \"auto\", which is " +
+                                  short_number(scale.automatic) + " s");
 }
 
 /// How stages end must be something that can happen.

@@ -15,10 +15,4 @@ double fill_volume(const Domain& domain, const RandomFill& fill);
 /// Largest distance of a wall from the axis [m], without walls that of the fill region.
 double widest_radius(const Scene& scene);
 
-/// A step that lasts more than these parts of the Rayleigh time is refused, or doubtful: from 25 % on a bed may
-/// never come to rest (tests/README.md, "Hard cases").
-constexpr double refused_step = 40.0 / 100.0, doubtful_step = 20.0 / 100.0;
-/// Law `linear`: the same, in parts of the contact time.
-constexpr double refused_linear_step = 1.0 / 5.0, doubtful_linear_step = 1.0 / 20.0;
-
 }  // namespace wedge

@@ -100,17 +100,17 @@ void read_model(TableReader& t, ContactModel& model) {
   model.tangential_ratio =
       t.number("tangential_ratio", Quantity::positive("tangential over normal stiffness, such as 0.2857"))
           .value_or(model.tangential_ratio);
-  if (model.law == ContactLaw::linear) {
+  if (stiffness_is_given(model.law)) {
     if (t.has("stiffness") && t.has("contact_time"))
       t.error("contact_time", "both 'stiffness' and 'contact_time' are given", "keep one of them");
     if (!t.has("stiffness") && !t.has("contact_time"))
-      t.missing("stiffness", "the law 'linear' needs stiffness = N/m or contact_time = s");
+      t.missing("stiffness", "the law '" + law_names.of(model.law) + "' needs stiffness = N/m or contact_time = s");
     return;
   }
   for (const char* key : {"stiffness", "contact_time", "tangential_ratio"})
     if (t.has(key))
-      t.error(key, "'" + std::string(key) + "' only applies to the law 'linear'",
-              "remove it, or write law = \"linear\"");
+      t.error(key, "'" + std::string(key) + "' does not apply to the law '" + law_names.of(model.law) + "'",
+              "remove it, or write law = " + law_names.choice_of(stiffness_is_given));
 }
 
 }  // namespace

@@ -45,10 +45,11 @@ inline const Names<AxisRule> axis_names{{{"clamp", AxisRule::clamp},
                                          {"line", AxisRule::line},
                                          {"hollow", AxisRule::hollow}},
                                         {"core"}};
-inline const Names<ContactLaw> law_names{{{"mindlin_deresiewicz", ContactLaw::mindlin_deresiewicz},
-                                          {"hertz_mindlin", ContactLaw::hertz_mindlin},
-                                          {"linear", ContactLaw::linear}},
-                                         {}};
+inline const Names<ContactLaw> law_names = [] {
+  Names<ContactLaw> names;
+  for_each_law([&](const auto& entry) { names.built.emplace_back(entry.name, entry.law); });
+  return names;
+}();
 inline const Names<RollingModel> rolling_names{{{"none", RollingModel::none},
                                                 {"constant_torque", RollingModel::constant_torque},
                                                 {"elastic_plastic_spring", RollingModel::elastic_plastic_spring}},

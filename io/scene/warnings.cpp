@@ -16,17 +16,17 @@ namespace {
 using Warnings = std::vector<std::string>;
 
 void doubt_step(const Scene& scene, double step, const std::string& where, Warnings& warnings) {
-  const bool linear = scene.contact.law == ContactLaw::linear;
-  const double scale = linear ? linear_contact_time(scene) : rayleigh_time(scene);
-  if (scale > 0 && step > (linear ? doubtful_linear_step : doubtful_step / damping_shortens(scene)) * scale)
+  const bool hertzian = is_hertzian(scene.contact.law);
+  const StepScale scale = step_scale(scene);
+  if (scale.time > 0 && step > scale.doubtful)
     warnings.push_back(
-        where + " of " + short_number(step) + " s is " + short_number(100 * step / scale) + " % of the " +
-        (linear ? "contact" : "Rayleigh") + " time, " + short_number(scale) + " s" +
-        (!linear && damping_shortens(scene) > 1
+        where + " of " + short_number(step) + " s is " + short_number(100 * step / scale.time) + " % of the " +
+        scale.name + " time, " + short_number(scale.time) + " s" +
+        (hertzian && damping_shortens(scene) > 1
              ? ", with a damping ratio of " + short_number(largest_damping(scene))
              : "") +
         ": such a step may heat a bed, which then never comes to rest; watch the residual in energies.csv");
-  const double impact = linear ? 0 : collision_time(scene, 1.0);
+  const double impact = hertzian ? collision_time(scene, 1.0) : 0;
   if (impact > 0 && impact < 10 * step)
     warnings.push_back("with " + where + " of " + short_number(step) + " s a collision at 1 m/s lasts only " +
                        short_number(impact / step) + " steps; check that results do not depend on it");

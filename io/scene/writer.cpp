@@ -109,7 +109,7 @@ void write_contact(Writer& w, const Scene& scene) {
     w.line("rolling_damping", number(contact.rolling_damping));
   w.line("tension", quoted(tension_names.of(contact.tension)));
   w.line("coulomb", quoted(coulomb_names.of(contact.coulomb)));
-  if (contact.law == ContactLaw::linear) {
+  if (stiffness_is_given(contact.law)) {
     if (contact.normal_stiffness > 0) w.line("stiffness", number(contact.normal_stiffness));
     if (contact.contact_time > 0) w.line("contact_time", number(contact.contact_time));
     w.line("tangential_ratio", number(contact.tangential_ratio));

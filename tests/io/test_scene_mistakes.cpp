@@ -122,7 +122,7 @@ TEST_CASE("what cannot be is refused", "[scene]") {
   refused({"domain.outlet.z=0.01"}, "the outlet lies above the bottom of the fill region");
   refused({"stage.open.until.discharged=1001"}, "only 1000 grains are in this domain");
   refused({"domain.gravity=[0, 0, 0]"}, "without gravity, rest has no natural scale");
-  refused({"contact.stiffness=1"}, "only applies to the law 'linear'");
+  refused({"contact.stiffness=1"}, "'stiffness' does not apply to the law 'mindlin_deresiewicz'");
   refused({"contact.law=linear"}, "needs stiffness = N/m or contact_time = s");
   refused({"contact.law=linear", "contact.contact_time=1e-3", "contact.grain-grain.damping=1.2"},
           "a contact with critical or stronger damping has no 'contact_time'");
