@@ -1,8 +1,8 @@
 // axis.hpp: what may happen at the axis of a sector, and all that tells one treatment from another.
 //
-// A new treatment: its name and its traits here, its word in io/scene/names.hpp, its test in tests/kernels/test_axis.cpp
-// and, if it acts on velocities in a way of its own, a rule in kernels/passes/axis_velocity.hpp. All else asks the
-// traits.
+// A new treatment: its name and its traits here, its word in io/scene/names.hpp, its test in
+// tests/kernels/test_axis.cpp and, if it acts on velocities in a way of its own, a rule in
+// kernels/passes/axis_velocity.hpp. All else asks the traits.
 #pragma once
 
 namespace wedge {

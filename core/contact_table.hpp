@@ -56,7 +56,7 @@ struct WallContactTable {
   Array<std::int32_t> feature;   // which segment, edge or plane
   Array<std::int32_t> touching;  // 1 while in contact
   Vec3Array history;             // m
-  Vec3Array normal;              // unit vector grain -> wall
+  Vec3Array normal;              // unit vector grain -> wall, of the last force step
   Vec3Array force;               // N, on the grain
   Vec3Array torque;              // N m, on the grain
   Array<double> overlap;         // m

@@ -41,8 +41,8 @@ struct Particles {
 
   Index count() const { return static_cast<Index>(id.size()); }
 
-  /// Calls visit(FieldInfo, array) for every field of a grain: the list that resize, sort, checkpoints and
-  /// frames walk. `Self` is Particles or const Particles.
+  /// Calls visit(FieldInfo, array) for every field of a grain: the list that resize, sort, insertion and
+  /// checkpoints walk, and in which frames look up what they write. `Self` is Particles or const Particles.
   template <class Self, class Visit>
   static void for_each_field(Self& p, Visit&& visit) {
     visit(FieldInfo{"x", "m", "position"}, p.position.x);

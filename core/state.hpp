@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/contact_table.hpp"
 #include "core/image_map.hpp"
@@ -20,10 +19,10 @@ struct EnergyLedger {
   double tangential_damping = 0;  // dissipated
   double sliding = 0;             // dissipated
   double rolling = 0;             // dissipated
-  double axis = 0;                // dissipated by the axis rule `clamp`
+  double axis = 0;                // dissipated by what the axis does to velocities
   double tangential_work = 0;     // done against the elastic tangential forces, sliding included
   double wall_work = 0;           // done by moving walls on the grains
-  double carried_in = 0;          // energy of grains when they entered
+  double carried_in = 0;          // energy of grains when they were put in after the start
   double carried_out = 0;         // energy of grains that left, of their contacts and those with removed walls
   double elastic_tangential_removed = 0;  // elastic tangential energy of contacts removed with their grain
 
@@ -42,15 +41,6 @@ struct EnergyLedger {
   }
 };
 
-/// A grain that left through the outlet.
-struct Departure {
-  double time = 0;  // s, when its centre crossed the outlet height
-  std::int32_t id = 0;
-  std::int32_t layer = 0;
-  Vec3 position, velocity;  // m, m/s, when it was taken out
-  double mass = 0;          // kg
-};
-
 struct State {
   /// How many grains of the whole vessel a grain of the domain stands for. Every extensive sum (grains, mass, load,
   /// rate) of the vessel counts each grain by it.
@@ -64,18 +54,19 @@ struct State {
   WallContactTable wall_contacts;
   EnergyLedger energy;
 
-  double time = 0;                    // s
-  std::int64_t step = 0;              // steps done
-  double history_ahead = 0;           // s: stored displacements are this far ahead (kernels/README.md)
-  double wall_margin = 0;             // m: how far a moving wall may go before the neighbour list is stale
-  double wall_travel = 0;             // m: how far the fastest wall has gone since the list was made
-  std::int64_t list_builds = 0;       // neighbour lists made so far
-  double mean_diameter = 0;           // m, of the grains at the start
-  double copies = 1;                  // of the domain that make the whole vessel, also where its sides are solid
-  bool alike = false;                 // all grains at the start had one radius and one material
-  std::int64_t put_in = 0;            // grains put in since the start
-  std::int64_t taken_out = 0;         // grains discharged since the start
-  std::vector<Departure> departures;  // discharged and not yet written by whoever keeps the record
+  double time = 0;               // s
+  std::int64_t step = 0;         // steps done
+  double history_ahead = 0;      // s: stored displacements are this far ahead (kernels/README.md)
+  double wall_margin = 0;        // m: how far a moving wall may go before the neighbour list is stale
+  double wall_travel = 0;        // m: how far the fastest wall has gone since the list was made
+  std::int64_t list_builds = 0;  // neighbour lists made so far
+  bool list_expired = false;     // the next step makes the list anew, whatever has moved
+  double mean_diameter = 0;      // m, of the grains at the start
+  double copies = 1;             // of the domain that make the whole vessel, also where its sides are solid
+  bool alike = false;            // all grains at the start had one radius and one material
+  std::int64_t put_in = 0;       // grains put in since the start
+  std::int64_t taken_out = 0;    // grains discharged since the start
+  std::int64_t next_id = 0;      // above the ids of all grains that ever were
 };
 
 /// Symmetry, vessel and copies of a scene, no grains.
@@ -91,10 +82,10 @@ inline Partner row_partner(const State& state, std::size_t row) {
   if (image < 0) return {second, 0};
   return {state.images.owner[static_cast<std::size_t>(image)], state.images.turn[static_cast<std::size_t>(image)]};
 }
-/// Whether the row is of a grain and its own copy half a turn away: one contact, seen from both sides.
+/// Whether the contact of the row is seen from both its ends.
 inline bool row_is_shared(const State& state, std::size_t row) {
   const Partner partner = row_partner(state, row);
-  return partner.grain == state.contacts.first[row] && 2 * partner.turn == state.symmetry.order();
+  return state.symmetry.is_seen_from_both_ends(state.contacts.first[row], partner.grain, partner.turn);
 }
 
 /// Way from the first grain of a row to the second [m], at the places where they are now.

@@ -46,6 +46,12 @@ public:
     return turn_vector(p, k);
   }
 
+  /// Whether the contact of a grain with the copy of `partner` at this turn is one with its own copy half a turn
+  /// away: that copy sees the same contact from its end, so each of the two has half of it.
+  bool is_seen_from_both_ends(Index grain, Index partner, int turn) const {
+    return grain == partner && 2 * turn == order();
+  }
+
   /// By how many turns a point must be turned to lie in the domain: 0 inside.
   int turns_home(Vec3 p) const;
 

@@ -40,8 +40,8 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
                    GeneralBodies{s.particles.radius.data(), s.particles.mass.data(), s.particles.material.data()};
         };
         const auto moves = [=](auto halves) {
-          return [=](State& s, const Reactions& r, double dt) {
-            return move_grains<decltype(halves)::value, need, act, decltype(number)>(bodies(s), s, r, g, dt);
+          return [=](State& s, const ForceSums& sums, double dt) {
+            return move_grains<decltype(halves)::value, need, act, decltype(number)>(bodies(s), s, sums, g, dt);
           };
         };
         passes.first_half = moves(std::integral_constant<Halves, Halves::first>{});

@@ -6,13 +6,13 @@
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "kernels/laws/friction.hpp"
-#include "kernels/passes/reactions.hpp"
+#include "kernels/passes/force_sums.hpp"
 
 namespace wedge {
 
 struct BodyPasses {
   // See move.hpp; true: the neighbour list is stale.
-  std::function<bool(State&, const Reactions&, double dt)> first_half, second_half, second_and_first_half;
+  std::function<bool(State&, const ForceSums&, double dt)> first_half, second_half, second_and_first_half;
 };
 
 BodyPasses make_body_passes(const Scene& scene, const State& state, Friction friction, bool uniform);

@@ -136,6 +136,8 @@ void describe_grains(State& state) {
   const Particles& p = state.particles;
   double sum = 0;
   state.alike = p.count() > 0;
+  for (Index i = 0; i < p.count(); ++i)
+    state.next_id = std::max(state.next_id, std::int64_t{p.id[static_cast<std::size_t>(i)]} + 1);
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.count()); ++i) {
     sum += 2 * p.radius[i];
     state.alike = state.alike && p.radius[i] == p.radius[0] && p.material[i] == p.material[0];

@@ -12,7 +12,8 @@ namespace wedge {
 /// but for `speed`, all forces zero. Throws SceneError when they do not find room.
 void fill_at_random(State& state, const Scene& scene, const RandomFill& fill);
 
-/// Notes in `state` what the grains have in common: mean_diameter and alike. Once, before TimeStep is made.
+/// Notes in `state` what the grains have in common, mean_diameter and alike, and next_id. Once, before TimeStep is
+/// made.
 void describe_grains(State& state);
 
 /// Sets what follows from radius and material: masses; and zeroes forces and lists. Pre: position, velocity,

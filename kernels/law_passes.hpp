@@ -6,7 +6,7 @@
 #include "core/scene.hpp"
 #include "core/state.hpp"
 #include "kernels/laws/friction.hpp"
-#include "kernels/passes/reactions.hpp"
+#include "kernels/passes/force_sums.hpp"
 
 namespace wedge {
 
@@ -16,15 +16,22 @@ struct ElasticEnergy {
 
 /// What varies from scene to scene; every member is chosen before the first step and calls a loop without options.
 struct LawPasses {
-  std::function<void(State&, Reactions&, double dt)> evaluate_contacts;
-  std::function<void(State&, Reactions&, double dt)> evaluate_walls;
+  std::function<void(State&, const ReactionMap&, ForceSums&, double dt)> evaluate_contacts;
+  std::function<void(State&, ForceSums&, double dt)> evaluate_walls;
   std::function<Vec3Array(const State&)> contact_forces;  // see contact_forces.hpp
   /// Elastic energy of all contacts for which `counts(slot of a grain)` holds for either grain; every contact if
   /// empty.
   std::function<ElasticEnergy(const State&, const std::function<bool(Index)>& counts)> elastic_energy;
 };
 
-/// Pre: all grains of `state` stay as uniform as they are now: `uniform` says that radius and material are one.
+/// The least of friction that the scene's contacts need.
+Friction needed_friction(const Scene& scene);
+
+/// The passes of the scene's law. Pre: as make_law_passes.
+LawPasses choose_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform);
+
+/// Those of one law; compiled in passes_NAME.cpp. Pre: all grains of `state` stay as uniform as they are now:
+/// `uniform` says that radius and material are one.
 template <class Law>
 LawPasses make_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform);
 

@@ -40,8 +40,7 @@ ElasticEnergy elastic_energy(const PairTable<typename Law::Coefficients>& table,
     if (!(depth > 0)) continue;
     const auto i = static_cast<std::size_t>(c.first[r]), j = static_cast<std::size_t>(c.second[r]);
     if (counts && !counts(c.first[r]) && !counts(row_partner(state, r).grain)) continue;
-    const double radius = p.radius[i] * p.radius[j] / (p.radius[i] + p.radius[j]);
-    const double mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
+    const double radius = effective(p.radius[i], p.radius[j]), mass = effective(p.mass[i], p.mass[j]);
     const auto& coefficients = table(p.material[i], p.material[j]);
     const double part = row_is_shared(state, r) ? 0.5 : 1.0;
     sum.normal += part * Law::normal_energy(coefficients, radius, mass, depth);
@@ -121,16 +120,16 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
             is_total_coulomb<Law> || has_couples(need);  // rarely run: one loop does for all grains and budgets
         constexpr Alike alike = compared ? Alike::nothing : decltype(in_common)::value;
         const auto pass = [damping](const auto& mix) {
-          return [mix, damping](State& s, Reactions& r, double dt) {
-            evaluate_contacts<Law, need, books || compared>(mix, s, r, dt, damping);
+          return [mix, damping](State& s, const ReactionMap& map, ForceSums& sums, double dt) {
+            evaluate_contacts<Law, need, books || compared>(mix, s, map, sums, dt, damping);
           };
         };
         const auto of_first = [&] {
           const int m = state.particles.material[0];
           return coefficients_in<Law, Number>(table(m, m));
         };
-        passes.evaluate_walls = [walls, damping](State& s, Reactions& r, double dt) {
-          evaluate_walls<Law, need, Number>(walls, s, r, dt, damping);
+        passes.evaluate_walls = [walls, damping](State& s, ForceSums& sums, double dt) {
+          evaluate_walls<Law, need, Number>(walls, s, sums, dt, damping);
         };
         passes.contact_forces = [table](const State& s) { return contact_forces<Law>(table, need, s); };
         if constexpr (alike == Alike::material_and_radius) {
@@ -140,9 +139,9 @@ LawPasses make_law_passes(const Scene& scene, const State& state, Friction frict
         } else if constexpr (alike == Alike::material) {
           passes.evaluate_contacts = pass(SizeMix<Law, Number>{of_first()});
         } else {
-          passes.evaluate_contacts = [table, pass](State& s, Reactions& r, double dt) {
+          passes.evaluate_contacts = [table, pass](State& s, const ReactionMap& map, ForceSums& sums, double dt) {
             if constexpr (need == Friction::relative) count_contacts(s);
-            pass(GeneralMix<Law, Number>{table.entries().data()})(s, r, dt);
+            pass(GeneralMix<Law, Number>{table.entries().data()})(s, map, sums, dt);
           };
         }
       },

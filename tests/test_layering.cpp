@@ -46,6 +46,16 @@ std::set<std::string> rooms(const std::string& folder) {
   return found;
 }
 
+/// Files in the rooms of `folder` that include one that stands beside the rooms.
+std::vector<std::string> includers_of_top(const std::string& folder) {
+  const std::regex include("(^|\\n)[ \\t]*#[ \\t]*include[ \\t]*[\"<](\\.\\./)*" + folder + "/[^/\">]*[\">]");
+  std::vector<std::string> found;
+  for (const Source& source : sources(folder))
+    if (source.path.find('/', folder.size() + 1) != std::string::npos && std::regex_search(source.text, include))
+      found.push_back(source.path);
+  return found;
+}
+
 /// Checks that the rooms of `folder` are these, from the lowest floor to the highest, and that none of them
 /// includes a file of one above it.
 void check_floors(const std::string& folder, const std::vector<std::string>& from_below) {
@@ -73,8 +83,13 @@ TEST_CASE("No folder includes one above it") {
 }
 
 TEST_CASE("No room includes one on a floor above it") {
+  check_floors("kernels", {"laws", "neighbours", "passes"});
   check_floors("io", {"files", "tables", "scene"});
   check_floors("apps", {"results", "measure", "setup", "run", "analysis", "comparison", "commands"});
+}
+
+TEST_CASE("The rooms of kernels do not know what stands above them: the step, energies, the choice of passes") {
+  CHECK(includers_of_top("kernels") == Paths{});
 }
 
 TEST_CASE("Only core/parallel.hpp knows OpenMP") {

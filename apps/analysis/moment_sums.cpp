@@ -168,8 +168,7 @@ void PartSums::add_fields_of(const Bed& bed) {
   for (const BedContact& c : bed.contacts) {
     const BedGrain& g = bed.grains[static_cast<std::size_t>(c.first)];
     if (!g.in_bed || !part_.holds(g.azimuth)) continue;
-    // A contact with one's own copy half a turn away is shared by two copies.
-    const bool shared = c.first == c.second && 2 * c.turn == domain_.symmetry.order();
+    const bool shared = domain_.symmetry.is_seen_from_both_ends(c.first, c.second, c.turn);
     const Vec3 branch = c.to - c.from;
     for (int k = 0; k < 3; ++k) {
       const Vec3 x = c.from + places[k] * branch;

@@ -7,8 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/time_scales.hpp"
-#include "kernels/fill.hpp"
-#include "kernels/time_step.hpp"
+#include "kernels/neighbours/neighbour_list.hpp"
 
 namespace wedge {
 namespace {
@@ -25,28 +24,18 @@ Vec3 in_cylinder_axes(const MeasuredDomain& domain, Vec3 place, Vec3 v) {
   return {c * v.x + s * v.y, c * v.y - s * v.x, v.z};
 }
 
-/// Grains with a grid of neighbours that holds every pair nearer than near_gap: the run's own neighbour list, at
-/// rest and without walls, so that images act as in the run.
+/// Grains with a list of neighbours that holds every pair nearer than near_gap, at rest and without walls; images
+/// act as in the run.
 class NearPairs {
 public:
-  NearPairs(const MeasuredDomain& domain, const Particles& grains) : scene_(domain.scene) {
-    scene_.domain.outlet_height.reset();
-    scene_.run.skin = 1.2 * near_gap * domain.diameter;
-    scene_.run.precision = Precision::double_precision;
+  NearPairs(const MeasuredDomain& domain, const Particles& grains) {
     state.symmetry = domain.symmetry;
-    state.vessel = Vessel(scene_);
-    for (int w = 0; w < state.vessel.wall_count(); ++w) state.vessel.set_present(w, false);
     state.particles = grains;
     for (auto* field : {&state.particles.velocity, &state.particles.angular_velocity})
       for (auto* component : {&field->x, &field->y, &field->z}) std::fill(component->begin(), component->end(), 0);
-    describe_grains(state);
-    TimeStep step(scene_, state);
-    step.start(state, 1e-9);
+    NeighbourList({domain.scene.domain.axis, false}, 0.6 * near_gap * domain.diameter).start(state, 1e-9);
   }
   State state;
-
-private:
-  Scene scene_;
 };
 
 /// Places of grains by id.
@@ -55,11 +44,6 @@ std::unordered_map<std::int32_t, Index> places_by_id(const Particles& grains) {
   places.reserve(at(grains.count()));
   for (Index i = 0; i < grains.count(); ++i) places.emplace(grains.id[at(i)], i);
   return places;
-}
-
-/// Whether a contact is one of a grain with its copy half a turn away: one contact, seen from both ends.
-bool is_shared(const MeasuredDomain& domain, Index first, Index second, int turn) {
-  return first == second && 2 * turn == domain.symmetry.order();
 }
 
 void take_contacts(Bed& bed, const ContactFrame& contacts, const std::unordered_map<std::int32_t, Index>& places) {
@@ -114,7 +98,7 @@ void count_contacts_of(Bed& bed, const MeasuredDomain& domain) {
     first.normal_force += in_cylinder_axes(domain, first.position, pull);
     ++first.cn;
     meetings.emplace_back(c.first, c.second);
-    if (is_shared(domain, c.first, c.second, c.turn)) continue;
+    if (domain.symmetry.is_seen_from_both_ends(c.first, c.second, c.turn)) continue;
     second.normal_force += in_cylinder_axes(domain, second.position, domain.symmetry.turn_vector(-pull, -c.turn));
     ++second.cn;
     meetings.emplace_back(c.second, c.first);

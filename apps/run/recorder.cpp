@@ -22,7 +22,7 @@ constexpr double series_per_second = 200;  // rows per simulated second when the
 std::vector<SeriesColumn> energy_columns(bool budget) {
   std::vector<SeriesColumn> c{{"time", "s"}, {"step", ""}};
   for (const char* name :
-       {"kinetic", "rotational", "elastic_normal", "elastic_tangential", "potential", "carried_out"})
+       {"kinetic", "rotational", "elastic_normal", "elastic_tangential", "potential", "carried_in", "carried_out"})
     c.push_back({name, "J"});
   if (budget)
     for (const char* name : {"normal_damping", "tangential_damping", "sliding", "rolling", "axis", "wall_work",
@@ -145,10 +145,11 @@ void Recorder::record_series(const State& state, const TimeStep& step, RunMemory
   std::vector<double> row{state.time,       static_cast<double>(state.step),
                           e.kinetic,        e.rotational,
                           e.elastic_normal, e.elastic_tangential,
-                          e.potential,      l.carried_out};
+                          e.potential,      l.carried_in,
+                          l.carried_out};
   if (scene_.output.energy_budget)
     for (const double x : {l.normal_damping, l.tangential_damping, l.sliding, l.rolling, l.axis, l.wall_work,
-                           step.history_coupling(state, memory.begin, e), step.residual(state, memory.begin, e)})
+                           history_coupling(l, memory.begin, e), residual(l, memory.begin, e)})
       row.push_back(x);
   energies_->append(row);
   ledger_->append({state.time, static_cast<double>(state.put_in), static_cast<double>(state.particles.count()),
@@ -159,13 +160,12 @@ void Recorder::record_series(const State& state, const TimeStep& step, RunMemory
   walls_->append(row);
 }
 
-void Recorder::record_departures(State& state) {
-  std::sort(state.departures.begin(), state.departures.end(),
+void Recorder::record_departures(double now, std::vector<Departure> departures) {
+  std::sort(departures.begin(), departures.end(),
             [](const Departure& a, const Departure& b) { return a.id < b.id; });
-  for (const Departure& d : state.departures)
-    discharge_->append({state.time, d.time, static_cast<double>(d.id), static_cast<double>(d.layer), d.position.x,
+  for (const Departure& d : departures)
+    discharge_->append({now, d.time, static_cast<double>(d.id), static_cast<double>(d.layer), d.position.x,
                         d.position.y, d.position.z, d.velocity.x, d.velocity.y, d.velocity.z, d.mass});
-  state.departures.clear();
 }
 
 void Recorder::list_frames(const RunMemory& memory) const {
@@ -191,7 +191,6 @@ void Recorder::record_frame(const State& state, const TimeStep& step, RunMemory&
 }
 
 void Recorder::record_checkpoint(const State& state, const RunMemory& memory) {
-  require(state.departures.empty(), "departures are recorded before a checkpoint");
   for (auto* series : {&energies_, &ledger_, &discharge_, &walls_}) (*series)->sync();
   const CheckpointExtra extra{scene_.text, resolved_scene(scene_), memory.to_text()};
   write_checkpoint(checkpoint_path(folder_.checkpoints(), state.step), state, extra);

@@ -27,8 +27,8 @@ public:
   void record_series(const State& state, const TimeStep& step, RunMemory& memory);
   /// A frame now, whatever the schedule.
   void record_frame(const State& state, const TimeStep& step, RunMemory& memory);
-  /// Moves the departures of the state to discharge.csv.
-  void record_departures(State& state);
+  /// Appends grains that have left since the last call, by `now` [s], to discharge.csv.
+  void record_departures(double now, std::vector<Departure> departures);
   /// Writes a checkpoint and keeps the last two. Pre: departures were recorded.
   void record_checkpoint(const State& state, const RunMemory& memory);
   /// Keeps the last checkpoint, of this step, as that of the stage's end.

@@ -15,6 +15,7 @@
 #include "core/require.hpp"
 #include "io/files/checkpoint.hpp"
 #include "io/scene/diagnostics.hpp"
+#include "io/tables/provenance.hpp"
 #include "kernels/passes/measure.hpp"
 
 namespace wedge {
@@ -175,7 +176,7 @@ std::optional<RunEnd> Simulation::run_stage(const RunLimits& limits) {
   std::optional<StageEnd> end;
   while (!(end = stage_end())) {
     step_->advance(*state_, dt_, steps_to_look(limits));
-    if (!state_->departures.empty()) recorder_->record_departures(*state_);
+    recorder_->record_departures(state_->time, step_->take_departures());
     recorder_->record_due(*state_, *step_, memory_);
     if (state_->step % judge_every == 0) judge_budget();
     if (limits.until && state_->time >= *limits.until - 0.5 * dt_) {
@@ -311,7 +312,7 @@ void Simulation::between_steps() {
 /// state at fixed steps, so that it does not depend on the machine, the threads or restarts.
 void Simulation::judge_budget() {
   if (!scene_->output.energy_budget) return;
-  const EnergyBudget budget = step_->budget(*state_, memory_.begin);
+  const EnergyBudget budget = energy_budget(state_->energy, memory_.begin, step_->energies(*state_));
   const double lifting = total_mass(*state_) * scene_->domain.gravity.norm() * state_->mean_diameter;
   const double scale = std::max(budget.lost, trifling_loss * (budget.put_in + lifting));
   if (!(std::abs(budget.residual) > doubtful_residual * scale)) return;

@@ -40,7 +40,7 @@ void Simulation::fail(const FileError& error) {
 }
 
 void Simulation::save(const char* what) {
-  if (!state_->departures.empty()) recorder_->record_departures(*state_);
+  recorder_->record_departures(state_->time, step_->take_departures());
   recorder_->record_checkpoint(*state_, memory_);
   last_checkpoint_ = session_seconds_;
   std::ostringstream text;

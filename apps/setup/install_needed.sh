@@ -42,7 +42,7 @@ install_needed() {
   fi
   cmake_is_new_enough || missing+=(cmake)
   command -v make >/dev/null || command -v ninja >/dev/null || missing+=(make)
-  for name in libeigen3-dev libhdf5-dev catch2 libtomlplusplus-dev nlohmann-json3-dev libcli11-dev "$@"; do
+  for name in libeigen3-dev libhdf5-dev libxxhash-dev catch2 libtomlplusplus-dev nlohmann-json3-dev libcli11-dev "$@"; do
     have_package "$name" || missing+=("$name")
   done
   [ ${#missing[@]} -gt 0 ] || return 0

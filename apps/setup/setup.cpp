@@ -14,7 +14,8 @@
 #include "io/scene/scene_file.hpp"
 #include "io/tables/state_csv.hpp"
 #include "kernels/fill.hpp"
-#include "kernels/time_step.hpp"
+#include "kernels/law_passes.hpp"
+#include "kernels/neighbours/neighbour_list.hpp"
 
 namespace wedge {
 namespace {
@@ -85,16 +86,8 @@ void take_over(State& state, const Scene& scene) {
   state.list_builds = 0;
   state.put_in = state.particles.count();
   state.taken_out = 0;
-  TimeStep::expire_list(state);
-}
-
-/// Whether contacts of grains have couples in this scene.
-bool has_couples(const Scene& scene) {
-  const auto& pairs = scene.interactions.entries();
-  return scene.contact.rolling != RollingModel::none &&
-         (scene.contact.rolling == RollingModel::elastic_plastic_spring ||
-          scene.contact.rolling_velocity == RollingVelocity::relative) &&
-         std::any_of(pairs.begin(), pairs.end(), [](const Interaction& pair) { return pair.rolling > 0; });
+  state.next_id = 0;
+  NeighbourList::expire(state);
 }
 
 }  // namespace
@@ -106,8 +99,8 @@ void require_fit(const State& state, const Scene& scene, const std::string& path
   };
   if (std::any_of(p.material.begin(), p.material.end(), unknown))
     throw FileError(path + ": a grain has a material that the scene has not");
-  const bool listed = std::isfinite(state.wall_travel);  // else the first step makes its list anew
-  if (listed && has_couples(scene) && state.contacts.couple.size() != state.contacts.first.size())
+  const bool listed = !state.list_expired;  // else the first step makes its list anew
+  if (listed && has_couples(needed_friction(scene)) && state.contacts.couple.size() != state.contacts.first.size())
     throw FileError(path + ": the contacts lack the rolling couples that the scene asks for");
 }
 
@@ -154,7 +147,7 @@ double stage_time_step(const Scene& scene, const State& state, const Stage& stag
     shortest =
         std::min(shortest, rayleigh_time(state.particles.radius[i],
                                          scene.materials[static_cast<std::size_t>(state.particles.material[i])]));
-  const bool by_grains = std::isfinite(shortest) && scene.contact.law != ContactLaw::linear;
+  const bool by_grains = std::isfinite(shortest) && !stiffness_is_given(scene.contact.law);
   const double step = by_grains ? automatic_part(scene) * shortest : chosen_time_step(scene);
   if (!(step > 0))
     throw SceneError(

@@ -10,9 +10,11 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <new>
 #include <string_view>
 
-#include "core/checksum.hpp"
+#include <xxhash.h>
+
 #include "io/files/atomic_file.hpp"
 #include "io/files/checkpoint_checks.hpp"
 #include "io/files/hdf5_file.hpp"
@@ -22,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format_version = 4;
+constexpr int format_version = 5;
 constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
 using Head = std::array<char, head_size>;
 
@@ -31,7 +33,7 @@ using Head = std::array<char, head_size>;
 /// Head of a file with `bytes` bytes after the head that have the checksum `hash`.
 Head make_head(std::uint64_t bytes, std::uint64_t hash) {
   Head head{};
-  std::snprintf(head.data(), head.size(), "wedge checkpoint %d\nbytes %020llu\nfnv1a64 %016llx\n", format_version,
+  std::snprintf(head.data(), head.size(), "wedge checkpoint %d\nbytes %020llu\nxxh3_64 %016llx\n", format_version,
                 static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(hash));
   return head;
 }
@@ -42,7 +44,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 struct Content {
   Head head{};
   std::size_t head_read = 0;
-  std::uint64_t bytes = 0, hash = fnv_start;
+  std::uint64_t bytes = 0, hash = 0;  // XXH3, 64 bits
 };
 /// Reads the file through; messages name `path`. Throws FileError.
 Content read_content(const std::string& file_path, const std::string& path) {
@@ -50,12 +52,15 @@ Content read_content(const std::string& file_path, const std::string& path) {
   if (!file) throw_file_error(path, "cannot open the checkpoint", errno);
   Content c;
   c.head_read = std::fread(c.head.data(), 1, c.head.size(), file.get());
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> hash(XXH3_createState(), &XXH3_freeState);
+  if (!hash || XXH3_64bits_reset(hash.get()) != XXH_OK) throw std::bad_alloc();
   std::vector<unsigned char> buffer(std::size_t{1} << 20);
   while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
-    c.hash = fnv1a(c.hash, buffer.data(), got);
+    XXH3_64bits_update(hash.get(), buffer.data(), got);
     c.bytes += got;
   }
   if (std::ferror(file.get()) != 0) throw_file_error(path, "cannot read the checkpoint", errno);
+  c.hash = XXH3_64bits_digest(hash.get());
   return c;
 }
 
@@ -124,40 +129,13 @@ void for_each_number(Self& s, Visit&& visit) {
   visit("wall_margin", s.wall_margin);
   visit("wall_travel", s.wall_travel);
   visit("list_builds", s.list_builds);
+  visit("list_expired", s.list_expired);
   visit("mean_diameter", s.mean_diameter);
   visit("alike", s.alike);
   visit("history_ahead", s.history_ahead);
   visit("put_in", s.put_in);
   visit("taken_out", s.taken_out);
-}
-
-/// A departure as numbers; the check below reminds whoever adds a field to it.
-constexpr std::size_t departure_columns = 8;
-static_assert(sizeof(Departure) == (departure_columns + 1) * sizeof(double), "a field of Departure is not saved");
-
-void write_departures(Hdf5Writer& file, const std::vector<Departure>& departures) {
-  std::vector<double> numbers;
-  std::vector<std::int32_t> names;
-  for (const Departure& d : departures) {
-    const Vec3 x = d.position, v = d.velocity;
-    numbers.insert(numbers.end(), {d.time, x.x, x.y, x.z, v.x, v.y, v.z, d.mass});
-    names.insert(names.end(), {d.id, d.layer});
-  }
-  file.group("departures");
-  file.write("departures/time_position_velocity_mass", numbers.data(), Shape{departures.size(), departure_columns});
-  file.write("departures/id_layer", names.data(), Shape{departures.size(), 2});
-}
-
-void read_departures(const Hdf5Reader& file, std::vector<Departure>& departures) {
-  departures.resize(file.shape("departures/id_layer").rows);
-  std::vector<double> numbers(departure_columns * departures.size());
-  std::vector<std::int32_t> names(2 * departures.size());
-  file.read("departures/time_position_velocity_mass", numbers.data(), numbers.size());
-  file.read("departures/id_layer", names.data(), names.size());
-  for (std::size_t k = 0; k < departures.size(); ++k) {
-    const double* n = numbers.data() + departure_columns * k;
-    departures[k] = {n[0], names[2 * k], names[2 * k + 1], {n[1], n[2], n[3]}, {n[4], n[5], n[6]}, n[7]};
-  }
+  visit("next_id", s.next_id);
 }
 
 std::string symmetry_text(const Symmetry& symmetry) {
@@ -288,7 +266,6 @@ void write_checkpoint(const std::string& path, const State& state, const Checkpo
                                [&](const char* name, double value) { file.attribute("energy", name, value); });
   write_extra(file, extra);
   write_vessel(file, state.vessel);
-  write_departures(file, state.departures);
   write_particles(file, state.particles, static_cast<std::size_t>(state.images.count()));
   for (const char* group : {"images", "contacts", "wall_contacts"}) file.group(group);
   for_each_array(state, [&](const std::string& name, const auto& array) {
@@ -318,7 +295,6 @@ CheckpointExtra read_checkpoint(const std::string& path, State& state) {
   });
   EnergyLedger::for_each_field(
       state.energy, [&](const char* name, double& value) { value = file.number_attribute("energy", name); });
-  read_departures(file, state.departures);
   for_each_array(state, [&](const std::string& name, auto& array) { file.read(name, array); });
   read_particles(file, state.particles, static_cast<std::size_t>(state.images.count()));
   check_consistency(state, path);

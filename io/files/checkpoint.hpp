@@ -1,7 +1,7 @@
 // checkpoint.hpp: everything a run needs to go on bit for bit, in one file that knows whether it is intact.
 //
 // A checkpoint is an HDF5 file behind a head of 512 bytes (the user block, which HDF5 tools skip). The head says in
-// one line of text how long the file is and the FNV-1a checksum (64 bits) of every byte after the head: a file that
+// one line of text how long the file is and the XXH3 checksum (64 bits) of every byte after the head: a file that
 // was cut short or changed anywhere is refused before HDF5 looks at it.
 #pragma once
 
@@ -33,8 +33,7 @@ void write_checkpoint(const std::string& path, const State& state, const Checkpo
 /// Fills `state` from a checkpoint. Throws FileError when the file is missing, cut short or changed, or belongs to
 /// another symmetry or other walls; `state` may then be half filled.
 /// Pre: state.symmetry and state.vessel are made from the scene.
-/// Post: all else is as written; the velocities seen are zero, also those of images, until the next step makes
-/// them.
+/// Post: all else is as written, what contacts saw in the last force step included.
 CheckpointExtra read_checkpoint(const std::string& path, State& state);
 
 /// The texts of a checkpoint alone: from its scene the caller makes symmetry and vessel. Throws as read_checkpoint.

@@ -36,6 +36,12 @@ struct ContactResponseOf {
 };
 using ContactResponse = ContactResponseOf<double>;
 
+/// Effective radius or mass of two bodies: 1 / (1/a + 1/b).
+template <class Real>
+WEDGE_INLINE Real effective(const Real& a, const Real& b) {
+  return a * b / (a + b);
+}
+
 /// The smallest number whose square root and inverse are finite: keeps x / |x| defined at x = 0.
 template <class Real>
 inline constexpr number_in<Real> tiny = std::is_same_v<number_in<Real>, float> ? constant<Real>(1e-36)

@@ -32,6 +32,14 @@ WEDGE_INLINE Vector3<Real> spin_about_normal(const Vector3<Real>& u, const Vecto
   return (scale * (1 - square)) * u + (2 * half_angle * scale) * cross(n, u);
 }
 
+/// The same for what a contact stores, in a step of dt [s]: its two bodies, whose angular velocities together are
+/// `spins` [rad/s], turn it by their mean.
+template <class Real>
+WEDGE_INLINE Vector3<Real> turn_with_spins(const Vector3<Real>& u, const Vector3<Real>& n,
+                                           const Vector3<Real>& spins, number_in<Real> dt) {
+  return spin_about_normal(u, n, constant<Real>(0.25) * dt * dot(spins, n));
+}
+
 /// Time [s] by which a displacement grows in a force step, at the tangential velocity of the step's end: half of dt
 /// for a contact that was there before (the other half is in `stored`; kernels/README.md, "Stored displacement"),
 /// and all the time since first touch, overlap over approach velocity [m/s], for a new one. A contact is new when

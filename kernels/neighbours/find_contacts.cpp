@@ -118,15 +118,15 @@ void bin_images(const State& state, NeighbourScratch& s) {
   const Index m = state.images.count(), n = state.particles.count();
   s.image_begin.assign(at(s.grid.cells()) + 1, 0);
   if (m == 0) return;
-  s.cell.resize(at(m));
+  s.image_cell.resize(at(m));
   for (Index q = 0; q < m; ++q) {
-    s.cell[at(q)] = s.grid.cell(state.particles.position.get(at(n + q)));
-    ++s.image_begin[at(s.cell[at(q)]) + 1];
+    s.image_cell[at(q)] = s.grid.cell(state.particles.position.get(at(n + q)));
+    ++s.image_begin[at(s.image_cell[at(q)]) + 1];
   }
   std::partial_sum(s.image_begin.begin(), s.image_begin.end(), s.image_begin.begin());
-  s.order.assign(s.image_begin.begin(), s.image_begin.end() - 1);
+  s.next_in_cell.assign(s.image_begin.begin(), s.image_begin.end() - 1);
   s.image_order.resize(at(m));
-  for (Index q = 0; q < m; ++q) s.image_order[at(s.order[at(s.cell[at(q)])]++)] = q;
+  for (Index q = 0; q < m; ++q) s.image_order[at(s.next_in_cell[at(s.image_cell[at(q)])]++)] = q;
 }
 
 void report_overlap(const State& state, Index i, Index slot) {

@@ -1,4 +1,4 @@
-// neighbours.hpp: the passes that make the neighbour list anew, in their order. time_step.cpp calls them.
+// neighbours.hpp: the passes that make the neighbour list anew, in their order. neighbour_list.cpp calls them.
 #pragma once
 
 #include "core/cell_grid.hpp"
@@ -13,14 +13,17 @@ struct NeighbourScratch {
   Array<std::int32_t> wrap;               // per grain: turns by which the last wrap turned it
   Array<std::int32_t> leaves;             // per grain: 1 when it leaves; empty when none does
   Array<Index> cell, order;               // per grain: its cell; old slot of each new slot
+  Array<Index> next_in_cell;              // per cell, while it fills: where its next grain, or image, goes
   Array<Index> old_slot;                  // per grain: where it stood before the last sort
   Array<Index> grain_begin;               // per cell: first grain (grains are sorted by cell)
   Vec3Array places;                       // per grain, m; a pack of places far away behind the last
   Array<double> reach;                    // per grain: radius and margin, m; as many
   Array<Index> image_begin, image_order;  // per cell: its images, in image order
-  Array<double> real_buffer;
+  Array<Index> image_cell;                // per image: its cell
+  Array<double> real_buffer;              // where a field is put in order, before it becomes the field
   Array<std::int32_t> whole_buffer;
-  // The touching contacts of the list before, for carrying histories, by the slots grains had then.
+  Vec3Array vector_buffer;
+  // What rows of the list before have stored, for carrying it on, by the slots grains had then.
   Array<Index> old_row_begin, old_wall_row, old_wall_row_end;
   Array<std::int32_t> old_partner, old_turn;
   Vec3Array old_history, old_rolling_moment;
@@ -29,9 +32,12 @@ struct NeighbourScratch {
 
 /// What makes a pair of grains a row of the list, and what the row keeps.
 struct PairRules {
-  AxisRule axis = AxisRule::clamp;
+  AxisRule axis;
   bool couples = false;  // rows keep a rolling couple and the moment of a rolling spring
 };
+
+/// What contacts see of the grains from slot `from` on is what they are now.
+void show_grains(Particles& particles, Index from);
 
 /// How far each grain may go before the list is stale, from its speed and from what lists and pairs cost.
 /// Pre: dt > 0 [s]. `smallest` [m] bounds the margins from below. Post: list_margin, wall_margin are set; reference
@@ -44,10 +50,6 @@ void set_contacts_aside(const State& state, NeighbourScratch& scratch);
 
 /// Turns grains that left through a face home: position, velocities, forces. Post: scratch.wrap holds their turns.
 void wrap(State& state, NeighbourScratch& scratch);
-
-/// Marks the grains whose centre is below `outlet` [m] and records their departure. Post: scratch.leaves[i] is 1
-/// for them. Returns how many there are. They are taken out by sort_by_cell.
-Index mark_departures(State& state, NeighbourScratch& scratch, double outlet);
 
 /// Sorts the grains by cell, then id; those marked in scratch.leaves drop out.
 /// Post: grains of a cell are consecutive; scratch.old_slot says whence they came.

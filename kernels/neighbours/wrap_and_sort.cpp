@@ -58,20 +58,20 @@ void permute(Array<T>& field, const Array<Index>& order, Array<T>& buffer) {
   field.swap(buffer);
 }
 
-/// The same for what contacts see: velocities one after the other, through memory that the search fills later; the
-/// rest is that of the grains, which are in order.
+/// The same for what contacts see: velocities one after the other; the rest is that of the grains, which are in
+/// order.
 void permute_seen(Particles& p, NeighbourScratch& s) {
   const auto n = static_cast<Index>(s.order.size());
-  s.places.resize(std::max(s.places.size(), s.order.size()));
+  s.vector_buffer.resize(s.order.size());
   for (Vec3 Seen::*const vector : {&Seen::velocity, &Seen::angular_velocity}) {
     for_each(n, [&](Index k) {
       const auto to = static_cast<std::size_t>(k);
-      s.places.set(to, p.seen.get(static_cast<std::size_t>(s.order[to])).*vector);
+      s.vector_buffer.set(to, p.seen.get(static_cast<std::size_t>(s.order[to])).*vector);
     });
     for_each(n, [&](Index k) {
       const auto to = static_cast<std::size_t>(k);
       Seen seen = p.seen.get(to);
-      seen.*vector = s.places.get(to);
+      seen.*vector = s.vector_buffer.get(to);
       p.seen.set(to, seen);
     });
   }
@@ -93,10 +93,11 @@ void order_by_cell(const Particles& p, NeighbourScratch& s) {
     if (stays(i)) ++s.grain_begin[static_cast<std::size_t>(s.cell[i]) + 1];
   std::partial_sum(s.grain_begin.begin(), s.grain_begin.end(), s.grain_begin.begin());
   s.order.resize(static_cast<std::size_t>(s.grain_begin.back()));
-  s.old_slot.assign(s.grain_begin.begin(), s.grain_begin.end() - 1);  // used as the fill position of each cell
+  s.next_in_cell.assign(s.grain_begin.begin(), s.grain_begin.end() - 1);
   for (std::size_t i = 0; i < n; ++i)
     if (stays(i))
-      s.order[static_cast<std::size_t>(s.old_slot[static_cast<std::size_t>(s.cell[i])]++)] = static_cast<Index>(i);
+      s.order[static_cast<std::size_t>(s.next_in_cell[static_cast<std::size_t>(s.cell[i])]++)] =
+          static_cast<Index>(i);
   for_each(static_cast<Index>(cells), [&](Index c) {
     const auto b = s.order.begin() + s.grain_begin[static_cast<std::size_t>(c)];
     const auto e = s.order.begin() + s.grain_begin[static_cast<std::size_t>(c) + 1];
@@ -131,36 +132,6 @@ void wrap(State& state, NeighbourScratch& scratch) {
     p.seen.set(s, seen);
     p.turns[s] -= k;
   });
-}
-
-Index mark_departures(State& state, NeighbourScratch& scratch, double outlet) {
-  const Particles& p = state.particles;
-  scratch.leaves.clear();
-  Index leaving = 0;
-  for (Index i = 0; i < p.count(); ++i) {
-    const auto s = static_cast<std::size_t>(i);
-    if (p.position.z[s] >= outlet) continue;
-    if (state.vessel.beside(p.position.get(s), p.radius[s])) {
-      std::ostringstream text;
-      text << "grain " << p.id[s] << " fell outside the vessel, at (" << p.position.x[s] << ", " << p.position.y[s]
-           << ", " << p.position.z[s] << ") m in step " << state.step
-           << ". Likely cause: walls that do not join, or grains that started outside.";
-      throw PhysicsError(text.str());
-    }
-    if (leaving++ == 0) scratch.leaves.assign(static_cast<std::size_t>(p.count()), 0);
-    scratch.leaves[s] = 1;
-    Departure d;
-    const Vec3 velocity = p.seen.get(s).velocity;
-    d.time = state.time + (velocity.z < 0 ? (outlet - p.position.z[s]) / velocity.z : 0.0);
-    d.id = p.id[s];
-    d.layer = p.layer[s];
-    d.position = p.position.get(s);
-    d.velocity = velocity;
-    d.mass = p.mass[s];
-    state.departures.push_back(d);
-  }
-  state.taken_out += leaving;
-  return leaving;
 }
 
 void sort_by_cell(State& state, NeighbourScratch& s) {

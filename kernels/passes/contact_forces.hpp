@@ -6,6 +6,7 @@
 #include "core/state.hpp"
 #include "kernels/laws/contact_law.hpp"
 #include "kernels/laws/friction.hpp"
+#include "kernels/passes/contact_kinematics.hpp"
 
 namespace wedge {
 
@@ -30,12 +31,11 @@ Vec3Array contact_forces(const PairTable<typename Law::Coefficients>& table, Fri
     const Vec3 d = j.position - i.position;
     const double distance = norm(d), overlap = std::max(0.0, i.radius + j.radius - distance);
     const Vec3 n = (1 / distance) * d;
-    const double lever_i = i.radius - 0.5 * overlap, lever_j = j.radius - 0.5 * overlap;
-    const Vec3 v = i.velocity - j.velocity + cross(lever_i * i.angular_velocity + lever_j * j.angular_velocity, n);
-    ContactInput in{
-        overlap, i.radius * j.radius / (i.radius + j.radius), i.mass * j.mass / (i.mass + j.mass), dot(v, n), {},
-        {}};
-    in.tangential_velocity = v - in.approach_velocity * n;
+    const Vec3 v = surface_velocity<false>(i.velocity - j.velocity, i.angular_velocity + j.angular_velocity,
+                                           i.angular_velocity - j.angular_velocity, d, n, i.radius - j.radius);
+    const ContactVelocity<double> velocity = along_and_across(v, n);
+    ContactInput in{overlap, effective(i.radius, j.radius), effective(i.mass, j.mass), velocity.approach, {}, {}};
+    in.tangential_velocity = velocity.tangential;
     in.displacement = (1 + sliding_margin) * (c.history.get(row) - state.history_ahead * in.tangential_velocity);
     if (friction == Friction::none) in.tangential_velocity = in.displacement = {};
     const ContactResponse out = Law::respond(table(p.material[first], p.material[second]), in);

@@ -6,8 +6,9 @@
 #include "core/state.hpp"
 #include "kernels/laws/contact_law.hpp"
 #include "kernels/laws/friction.hpp"
-#include "kernels/laws/rolling.hpp"
 #include "kernels/laws/history.hpp"
+#include "kernels/laws/rolling.hpp"
+#include "kernels/passes/contact_kinematics.hpp"
 #include "kernels/passes/pair_mix.hpp"
 #include "kernels/passes/slab.hpp"
 
@@ -95,14 +96,13 @@ inline void approach(const Mix& mix, const ForceStep<Number>& step, const SeenSl
   using std::sqrt;
   using Real = PackOf<Number>;
   using Vector = Vector3<Real>;
-  constexpr Number half = 1 / Number(2);
   for (Index row = 0; row < rows; row += lanes<Number>) {
     const auto pairs = mix.pairs(of, row);
     const Vector d = -of.apart.load(row);
     const Real distance = sqrt(dot(d, d)), inverse = 1 / distance;
     const Vector n = inverse * d;
     const Real overlap = overlap_of(of, row, pairs.radius_first + pairs.radius_second, distance);
-    Vector v = of.speed.load(row);
+    const Vector v = of.speed.load(row);
     to.overlap.store(row, overlap);
     to.normal.store(row, n);
     if constexpr (friction == Friction::none) {
@@ -111,18 +111,18 @@ inline void approach(const Mix& mix, const ForceStep<Number>& step, const SeenSl
       // The second grain was at d + dt v seen from the first, so the normal along n + back.
       const Vector back = (step.dt * inverse) * (v - dot(v, n) * n);
       if constexpr (friction == Friction::spring) to.back.store(row, back);
-      // lever_i w_i + lever_j w_j with the levers radius - overlap/2, which together are the distance of a contact
       const Vector spins = of.spins.load(row);
-      v += half * cross(spins, d);
-      if constexpr (!Mix::alike)
-        v += (half * (pairs.radius_first - pairs.radius_second)) * cross(of.spin_difference.load(row), n);
-      const Real approach = dot(v, n);
-      const Vector tangential = v - approach * n, before = stored.history.load<Real>(row);
+      const Vector spin_difference = Mix::alike ? Vector{} : of.spin_difference.load(row);
+      const ContactVelocity<Real> seen =
+          along_and_across(surface_velocity<Mix::alike>(v, spins, spin_difference, d, n,
+                                                        Real(pairs.radius_first - pairs.radius_second)),
+                           n);
+      const Vector before = stored.history.load<Real>(row);
       const Vector followed = follow_turning_normal(before, back, n);
-      to.approach.store(row, approach);
-      to.tangential_velocity.store(row, tangential);
-      to.displacement.store(row, spin_about_normal(followed, n, half * half * step.dt * dot(spins, n)) +
-                                     slip_time(before, overlap, approach, step.dt) * tangential);
+      to.approach.store(row, seen.approach);
+      to.tangential_velocity.store(row, seen.tangential);
+      to.displacement.store(row, turn_with_spins(followed, n, spins, step.dt) +
+                                     slip_time(before, overlap, seen.approach, step.dt) * seen.tangential);
     }
   }
 }
@@ -157,7 +157,7 @@ WEDGE_INLINE Vector3<Real> couples(const Pairs& pairs, const ForceStep<Number>& 
                       1 / rocking_inertia(mass_second, pairs.radius_second));
     const Vector3<Real> followed =
         follow_turning_normal(stored.rolling_moment.load<Real>(row), contacts.back.load(row), n);
-    const Vector3<Real> moment = spin_about_normal(followed, n, step.dt / 4 * dot(of.spins.load(row), n));
+    const Vector3<Real> moment = turn_with_spins(followed, n, of.spins.load(row), step.dt);
     const RollingSpringOf<Real> spring = rolling_spring(in, moment, step.dt);
     couple = on * spring.couple;
     stored.rolling_moment.store(row, on * spring.moment);
@@ -271,12 +271,13 @@ template <class Law, Friction friction, bool with_budget, class Mix>
 class TilePass {
 public:
   using Number = typename Mix::Number;
-  TilePass(const Mix& mix, const ForceStep<Number>& step, State& state, Reactions& reactions)
+  TilePass(const Mix& mix, const ForceStep<Number>& step, State& state, const ReactionMap& map, ForceSums& sums)
       : mix_(mix),
         step_(step),
         grains_(state.particles.seen.template data<Number>()),
         c_(state.contacts),
-        reactions_(reactions) {}
+        map_(map),
+        sums_(sums) {}
 
   ContactLosses evaluate(Index begin, Index end) {
     for (Index from = begin; from < end; from += slab_size) {
@@ -313,8 +314,7 @@ private:
     approach<friction>(mix_, step_, seen_, stored, rows, contacts_);
     respond<Law, friction, with_budget>(mix_, step_, seen_, contacts_, stored, most_contacts_, rows, outcome_,
                                         losses_);
-    add_to_sums<Mix::alike>(outcome_, first, reactions_.target.data() + from, rows,
-                            reactions_.template sum<Number>(0));
+    add_to_sums<Mix::alike>(outcome_, first, map_.target.data() + from, rows, sums_.template sum<Number>(0));
   }
   /// Asks for the histories of rows that come soon: there are more arrays than the processor follows by itself.
   static void fetch(const Vec3Array& stored, Index from) {
@@ -335,7 +335,8 @@ private:
   const ForceStep<Number> step_;
   const SeenOf<Number>* const grains_;
   ContactTable& c_;
-  Reactions& reactions_;
+  const ReactionMap& map_;
+  ForceSums& sums_;
   PackLosses<Number> losses_;
   SeenSlab<Number> seen_;
   ContactSlab<Number> contacts_;
@@ -343,26 +344,28 @@ private:
   ColumnOf<Number> most_contacts_{};
 };
 
-/// Pre: images are fresh, what contacts see is predicted to the time of the positions, `reactions` fits the list;
+/// Pre: images are fresh, what contacts see is predicted to the time of the positions, `map` fits the list;
 /// dt [s] is the time since the last force step (0: forces at the start, no history grows). Post: each row's
 /// history is that of now; the sums of grains and guests hold what the rows of each tile do to them.
 template <class Law, Friction friction, bool with_budget, class Mix>
-void evaluate_contacts(const Mix& mix, State& state, Reactions& reactions, double dt, double rolling_damping) {
+void evaluate_contacts(const Mix& mix, State& state, const ReactionMap& map, ForceSums& sums, double dt,
+                       double rolling_damping) {
   using Number = typename Mix::Number;
   const ContactTable& c = state.contacts;
   const Index n = state.particles.count();
   const ForceStep<Number> step{static_cast<Number>(dt), static_cast<Number>(rolling_damping)};
+  sums.fit(map.sums(), state.particles.seen.precision());
   const ContactLosses sum = reduce_each_block(
       tile_count(n), ContactLosses{},
       [&](Index tile) {
         const Index begin = tile * tile_size, end = std::min(n, begin + tile_size);
         const auto clear = [&](Index from, Index to) {
-          std::fill(reactions.sum<Number>(from), reactions.sum<Number>(to), Number(0));
+          std::fill(sums.sum<Number>(from), sums.sum<Number>(to), Number(0));
         };
         clear(begin, end);
-        clear(reactions.guests_begin[static_cast<std::size_t>(tile)],
-              reactions.guests_begin[static_cast<std::size_t>(tile) + 1]);
-        TilePass<Law, friction, with_budget, Mix> pass(mix, step, state, reactions);
+        clear(map.guests_begin[static_cast<std::size_t>(tile)],
+              map.guests_begin[static_cast<std::size_t>(tile) + 1]);
+        TilePass<Law, friction, with_budget, Mix> pass(mix, step, state, map, sums);
         return pass.evaluate(c.row_begin[static_cast<std::size_t>(begin)],
                              c.row_begin[static_cast<std::size_t>(end)]);
       },

@@ -7,9 +7,10 @@
 #include "core/parallel.hpp"
 #include "core/state.hpp"
 #include "kernels/laws/contact_law.hpp"
-#include "kernels/passes/meet_walls.hpp"
-#include "kernels/passes/evaluate_contacts.hpp"
 #include "kernels/laws/history.hpp"
+#include "kernels/passes/contact_kinematics.hpp"
+#include "kernels/passes/evaluate_contacts.hpp"
+#include "kernels/passes/meet_walls.hpp"
 
 namespace wedge {
 
@@ -58,15 +59,16 @@ struct WallSlab {
 template <class Law, Friction friction, class Number>
 class WallPass {
 public:
-  WallPass(const WallMix<Law>& mix, State& state, Reactions& reactions, const ForceStep<double>& step)
-      : mix_(mix), state_(state), reactions_(reactions), c_(state.wall_contacts), step_(step) {}
+  WallPass(const WallMix<Law>& mix, State& state, ForceSums& sums, const ForceStep<double>& step)
+      : mix_(mix), state_(state), sums_(sums), c_(state.wall_contacts), step_(step) {}
 
   /// Entries [begin, end) of the table's list of grains.
   WallLosses evaluate(Index begin, Index end) {
     for (Index g = begin; g < end; ++g) {
       const auto s = static_cast<std::size_t>(g);
-      meet_walls(state_, c_.grain[s], c_.begin[s], c_.begin[s + 1], has_couples(friction));
-      for (Index k = c_.begin[s]; k < c_.begin[s + 1]; ++k) take_in(c_.grain[s], static_cast<std::size_t>(k));
+      const auto first = static_cast<std::size_t>(c_.begin[s]);
+      meet_walls(state_, c_.grain[s], c_.begin[s], c_.begin[s + 1], has_couples(friction), met_);
+      for (std::size_t m = 0; m < met_.size(); ++m) take_in(c_.grain[s], first + m, met_[m]);
     }
     if (slab_.count > 0) respond();
     return {losses_.sum(), simd::reduce(wall_work_), crossed_};
@@ -84,13 +86,13 @@ private:
     return {from.x.number[row], from.y.number[row], from.z.number[row]};
   }
 
-  /// Row k, which grain i has met, becomes part of the slab if it touches.
-  void take_in(Index i, std::size_t k) {
-    const Vec3 n = c_.force.get(k), before = c_.normal.get(k);  // meet_walls left the new normal there
+  /// Row k of grain i becomes part of the slab if it touches.
+  void take_in(Index i, std::size_t k, const WallMeeting& met) {
+    const Vec3 n = met.normal, before = c_.normal.get(k);
     c_.normal.set(k, n);
-    const bool touches = c_.touching[k] == held || c_.touching[k] == fresh;
+    const bool touches = met.touch == Touch::held || met.touch == Touch::fresh;
     const WallFeature& feature = state_.vessel.feature(c_.feature[k]);
-    if (c_.touching[k] == held && dot(n, before) < 0 && feature.kind != WallFeature::Kind::edge) crossed_ = i;
+    if (met.touch == Touch::held && dot(n, before) < 0 && feature.kind != WallFeature::Kind::edge) crossed_ = i;
     c_.touching[k] = touches ? 1 : 0;
     if (!touches) {
       c_.history.set(k, {});
@@ -135,7 +137,7 @@ private:
     for (Index m = 0; m < slab_.count; ++m) {
       const auto k = static_cast<std::size_t>(slab_.row[m]);
       const Vec3 force = get(slab_.force, m);
-      Number* const sum = reactions_.template sum<Number>(slab_.grain[m]);
+      Number* const sum = sums_.template sum<Number>(slab_.grain[m]);
       const auto add = [&](int c, double felt) { sum[c] += static_cast<Number>(felt); };
       c_.force.set(k, force);
       add(0, force.x);
@@ -172,12 +174,13 @@ private:
       spin = slab_.spin.load(m);
       v += lever * cross(spin, n);
     }
-    ContactInputOf<Pack> in{overlap, radius, slab_.mass.load(m), dot(v, n), {}, {}};
+    const ContactVelocity<Pack> velocity = along_and_across(v, n);
+    ContactInputOf<Pack> in{overlap, radius, slab_.mass.load(m), velocity.approach, {}, {}};
     const PackVec3 wall_spin{Pack(0.0), Pack(0.0), turning};
     if constexpr (friction != Friction::none) {
-      in.tangential_velocity = v - in.approach_velocity * n;
+      in.tangential_velocity = velocity.tangential;
       const PackVec3 stored = slab_.history.load(m), followed = follow_normal(stored, slab_.before.load(m), n);
-      in.displacement = spin_about_normal(followed, n, 0.25 * step_.dt * dot(spin + wall_spin, n)) +
+      in.displacement = turn_with_spins(followed, n, spin + wall_spin, step_.dt) +
                         slip_time(stored, overlap, in.approach_velocity, step_.dt) * in.tangential_velocity;
     }
     const ContactResponseOf<Pack> out = Law::respond(coefficients, in);
@@ -224,7 +227,7 @@ private:
     } else {
       in.inertia = rocking_inertia(mass, radius);
       const PackVec3 followed = follow_normal(slab_.rolling_moment.load(m), slab_.before.load(m), n);
-      const PackVec3 moment = spin_about_normal(followed, n, 0.25 * step_.dt * dot(spin + wall_spin, n));
+      const PackVec3 moment = turn_with_spins(followed, n, spin + wall_spin, step_.dt);
       const RollingSpringOf<Pack> spring = rolling_spring(in, moment, step_.dt);
       slab_.rolling_moment.store(m, spring.moment);
       return spring.couple;
@@ -233,9 +236,10 @@ private:
 
   const WallMix<Law>& mix_;
   State& state_;
-  Reactions& reactions_;
+  ForceSums& sums_;
   WallContactTable& c_;
   const ForceStep<double> step_;
+  std::vector<WallMeeting> met_;  // the rows of the grain at hand
   WallSlab slab_{};
   PackLosses<double> losses_;
   Pack wall_work_ = 0;
@@ -246,12 +250,11 @@ private:
 /// Post: wall forces are in the table and added to the sums of the grains.
 /// Throws PhysicsError when a grain's centre has gone through a wall.
 template <class Law, Friction friction, class Number>
-void evaluate_walls(const WallMix<Law>& mix, State& state, Reactions& reactions, double dt,
-                    double rolling_damping) {
+void evaluate_walls(const WallMix<Law>& mix, State& state, ForceSums& sums, double dt, double rolling_damping) {
   const WallLosses sum = reduce_blocks(
       static_cast<Index>(state.wall_contacts.grain.size()), WallLosses{},
       [&](Index begin, Index end) {
-        return WallPass<Law, friction, Number>(mix, state, reactions, {dt, rolling_damping}).evaluate(begin, end);
+        return WallPass<Law, friction, Number>(mix, state, sums, {dt, rolling_damping}).evaluate(begin, end);
       },
       [](const WallLosses& a, const WallLosses& b) { return a + b; });
   book(sum.contact, state.energy);

@@ -19,21 +19,22 @@ bool beside(const Vessel& vessel, int a, int b) {
   return contains(of_b, a) || std::any_of(of_a.begin(), of_a.end(), [&](int edge) { return contains(of_b, edge); });
 }
 
-void meet(State& state, std::size_t i, std::size_t k) {
+WallMeeting meet(State& state, std::size_t i, std::size_t k) {
   WallContactTable& c = state.wall_contacts;
   const double radius = state.particles.radius[i];
   const WallProximity near = state.vessel.proximity(c.feature[k], state.particles.position.get(i));
   const bool was = c.touching[k] != 0;
   const bool is = near.minimum && near.distance < radius && state.vessel.active(c.feature[k]);
-  c.touching[k] = was ? (is ? held : left) : (is ? fresh : apart);
   c.overlap[k] = is ? radius - near.distance : 0.0;
-  c.force.set(k, near.normal);
+  return {was ? (is ? Touch::held : Touch::left) : (is ? Touch::fresh : Touch::apart), near.normal};
 }
 
-void take_over(State& state, std::size_t k, std::size_t begin, std::size_t end, bool couples) {
+/// Row k, which is fresh, takes over from a row that the grain has just left, if there is one.
+void take_over(State& state, std::size_t k, std::size_t begin, const std::vector<WallMeeting>& met, bool couples) {
   WallContactTable& c = state.wall_contacts;
-  for (std::size_t o = begin; o < end; ++o) {
-    if (c.touching[o] != left || !beside(state.vessel, c.feature[o], c.feature[k])) continue;
+  for (std::size_t m = 0; m < met.size(); ++m) {
+    const std::size_t o = begin + m;
+    if (met[m].touch != Touch::left || !beside(state.vessel, c.feature[o], c.feature[k])) continue;
     c.history.set(k, c.history.get(o));
     c.normal.set(k, c.normal.get(o));
     if (couples) c.rolling_moment.set(k, c.rolling_moment.get(o));
@@ -43,16 +44,17 @@ void take_over(State& state, std::size_t k, std::size_t begin, std::size_t end, 
 
 }  // namespace
 
-void meet_walls(State& state, Index i, Index begin, Index end, bool couples) {
+void meet_walls(State& state, Index i, Index begin, Index end, bool couples, std::vector<WallMeeting>& met) {
   const auto first = static_cast<std::size_t>(begin), last = static_cast<std::size_t>(end);
+  met.resize(last - first);
   bool some_fresh = false;
   for (std::size_t k = first; k < last; ++k) {
-    meet(state, static_cast<std::size_t>(i), k);
-    some_fresh = some_fresh || state.wall_contacts.touching[k] == fresh;
+    met[k - first] = meet(state, static_cast<std::size_t>(i), k);
+    some_fresh = some_fresh || met[k - first].touch == Touch::fresh;
   }
   if (!some_fresh) return;
   for (std::size_t k = first; k < last; ++k)
-    if (state.wall_contacts.touching[k] == fresh) take_over(state, k, first, last, couples);
+    if (met[k - first].touch == Touch::fresh) take_over(state, k, first, met, couples);
 }
 
 void report_crossing(const State& state, Index i) {

@@ -3,8 +3,8 @@
 
 #include "core/parallel.hpp"
 #include "core/state.hpp"
+#include "kernels/passes/force_sums.hpp"
 #include "kernels/passes/integrate.hpp"
-#include "kernels/passes/reactions.hpp"
 #include "kernels/passes/slab.hpp"
 
 namespace wedge {
@@ -123,7 +123,7 @@ struct GrainColumns {
       for (Index r = 0; r < 8; ++r)
         records[r] = reinterpret_cast<const eight_of<Number>*>(sums)[std::min(row + r, count - 1)];
       transpose(records, columns);
-      for (std::size_t c = 0; c < Reactions::sum_size; ++c) number[c].store_eight(row, columns[c]);
+      for (std::size_t c = 0; c < ForceSums::sum_size; ++c) number[c].store_eight(row, columns[c]);
     }
   }
 };
@@ -132,9 +132,9 @@ struct GrainColumns {
 template <Halves halves, Friction friction, AxisAction axis, class Number, class Bodies>
 class MovePass {
 public:
-  MovePass(const Bodies& bodies, Particles& p, const Reactions& reactions, Vec3 gravity, double dt)
+  MovePass(const Bodies& bodies, Particles& p, const ForceSums& sums, Vec3 gravity, double dt)
       : bodies_(bodies),
-        reactions_(reactions),
+        sums_(sums),
         gravity_(gravity),
         dt_(dt),
         x_(p.position),
@@ -153,7 +153,7 @@ public:
     Losses<double> singles;
     for (Index from = begin; from < end; from += slab_size) {
       const Index count = std::min(slab_size, end - from);
-      if constexpr (halves != Halves::first) sums_.read(reactions_.sum<Number>(from), count);
+      if constexpr (halves != Halves::first) columns_.read(sums_.sum<Number>(from), count);
       Index row = 0;
       for (; row + pack_size <= count; row += pack_size) move(from, row, packs);
       for (; row < count; ++row) move(from, row, singles);
@@ -181,7 +181,7 @@ private:
       if constexpr (friction != Friction::none) f.torque = torque_.get<Real>(i);
       if constexpr (friction == Friction::rolling) f.cap = load<Real>(cap_ + i);
     } else {
-      const auto sum = [&](std::size_t c) { return load<Real>(sums_.number[c].number + row); };
+      const auto sum = [&](std::size_t c) { return load<Real>(columns_.number[c].number + row); };
       f.force = {sum(0), sum(1), sum(2)};
       if constexpr (friction != Friction::none) f.torque = {sum(3), sum(4), sum(5)};
       if constexpr (friction == Friction::rolling) f.cap = sum(6);
@@ -235,14 +235,14 @@ private:
   }
 
   const Bodies bodies_;
-  const Reactions& reactions_;
+  const ForceSums& sums_;
   const Vec3 gravity_;
   const double dt_;
   const Components x_, v_, w_, force_, torque_, reference_;
   double* const cap_;
   const double* const margin_;
   SeenOf<Number>* const seen_;
-  GrainColumns sums_, shown_;
+  GrainColumns columns_, shown_;  // of the sums, and of what contacts will see
 };
 
 /// Second half of a step: takes the forces of the grains from the sums, and kicks by dt/2. First half: kicks by
@@ -250,11 +250,11 @@ private:
 /// neighbour list went stale. Post: after `second` alone, force, torque and rolling_cap hold the forces of the
 /// step, which `first` alone starts from.
 template <Halves halves, Friction friction, AxisAction axis, class Number, class Bodies>
-bool move_grains(const Bodies& bodies, State& state, const Reactions& reactions, Vec3 gravity, double dt) {
+bool move_grains(const Bodies& bodies, State& state, const ForceSums& sums, Vec3 gravity, double dt) {
   const MoveResult result = reduce_blocks(
       state.particles.count(), MoveResult{},
       [&](Index begin, Index end) {
-        return MovePass<halves, friction, axis, Number, Bodies>(bodies, state.particles, reactions, gravity, dt)
+        return MovePass<halves, friction, axis, Number, Bodies>(bodies, state.particles, sums, gravity, dt)
             .move(begin, end);
       },
       [](const MoveResult& a, const MoveResult& b) { return a + b; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/state.hpp"
+#include "kernels/laws/contact_law.hpp"
 #include "kernels/passes/slab.hpp"
 
 namespace wedge {
@@ -41,7 +42,7 @@ WEDGE_INLINE PackOfPairs<Coefficients, PackOf<Number>> pairs_of_sizes(const Seen
   using Real = PackOf<Number>;
   const Real ri = s.radius_first.load(row), rj = s.radius_second.load(row);
   const Real mi = s.mass_first.load(row), mj = s.mass_second.load(row);
-  return {ri, rj, ri * rj / (ri + rj), mi * mj / (mi + mj), coefficients};
+  return {ri, rj, effective(ri, rj), effective(mi, mj), coefficients};
 }
 
 /// Any radii, one material.

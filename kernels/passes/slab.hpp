@@ -8,7 +8,7 @@
 
 #include "core/material.hpp"
 #include "core/particles.hpp"
-#include "kernels/passes/reactions.hpp"
+#include "kernels/passes/force_sums.hpp"
 
 namespace wedge {
 
@@ -166,11 +166,11 @@ inline void collect(const SeenOf<Number>* seen, const SlabRows& rows, SeenSlab<N
   }
 }
 
-/// What the first grain of each row feels, in the columns of a sum (see Reactions); the second feels the opposite
+/// What the first grain of each row feels, in the columns of a sum (see ForceSums); the second feels the opposite
 /// force. Its torque is the same where grains are alike, and its own otherwise.
 template <class Number>
 struct OutcomeSlab {
-  ColumnOf<Number> column[Reactions::sum_size];
+  ColumnOf<Number> column[ForceSums::sum_size];
   VectorColumnsOf<Number> second_torque;
 };
 

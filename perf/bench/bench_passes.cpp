@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "kernels/laws/mindlin_deresiewicz.hpp"
@@ -44,19 +45,20 @@ struct SettledColumn {
 struct Bed {
   Scene scene;
   State state;
-  Reactions reactions;
-  NeighbourScratch scratch;
+  ForceSums sums;
+  std::optional<NeighbourList> list;
 
   bool alike() const { return state.alike; }
+  const ReactionMap& map() { return list->reactions(state); }
   LawPasses law(Friction friction) const {
     return make_law_passes<MindlinDeresiewicz>(scene, state, friction, alike());
   }
   /// Fresh sums of forces: some passes add to them each time they are called.
   void compute_forces() {
     const LawPasses passes = law(Friction::rolling);
-    passes.evaluate_contacts(state, reactions, still);
-    fold_reactions(state, reactions);
-    passes.evaluate_walls(state, reactions, still);
+    passes.evaluate_contacts(state, map(), sums, still);
+    fold_reactions(state, map(), sums);
+    passes.evaluate_walls(state, sums, still);
   }
 };
 
@@ -73,7 +75,7 @@ Bed& settled_bed(const SettledColumn& c) {
     bed->scene = column_scene(column);
     bed->state = column_state(bed->scene, c.places, c.kind);
     settle(bed->scene, bed->state, 0.02);
-    map_reactions(bed->state, bed->scene.domain.axis, bed->reactions);
+    bed->list.emplace(PairRules{bed->scene.domain.axis, false}, 0.01 * bed->state.mean_diameter);
   }
   bed->compute_forces();
   return *bed;
@@ -110,8 +112,8 @@ void add_contacts(const SettledColumn& c, const char* name, Friction friction) {
   benchmark::RegisterBenchmark((name + c.name()).c_str(), [=](benchmark::State& bench) {
     Bed& bed = settled_bed(c);
     const LawPasses law = bed.law(friction);
-    for (auto _ : bench) law.evaluate_contacts(bed.state, bed.reactions, still);
-    report(bench, bed.state.particles.count(), contact_bytes(bed.state, bed.reactions, friction));
+    for (auto _ : bench) law.evaluate_contacts(bed.state, bed.map(), bed.sums, still);
+    report(bench, bed.state.particles.count(), contact_bytes(bed.state, bed.map(), friction));
     const double rows_each = bed.state.contacts.rows() / static_cast<double>(c.grains);
     bench.counters["rows_each"] = rows_each;
     if (friction == Friction::rolling && c.kind == Grains::alike) {
@@ -129,7 +131,7 @@ void add_move(const SettledColumn& c, const char* name, Halves halves) {
     const auto& move = halves == Halves::first    ? bodies.first_half
                        : halves == Halves::second ? bodies.second_half
                                                   : bodies.second_and_first_half;
-    for (auto _ : bench) move(bed.state, bed.reactions, still);
+    for (auto _ : bench) move(bed.state, bed.sums, still);
     report(bench, bed.state.particles.count(), move_bytes(bed.state, halves));
   });
 }
@@ -137,8 +139,8 @@ void add_move(const SettledColumn& c, const char* name, Halves halves) {
 void add_fold(const SettledColumn& c) {
   benchmark::RegisterBenchmark(("fold" + c.name()).c_str(), [=](benchmark::State& bench) {
     Bed& bed = settled_bed(c);
-    for (auto _ : bench) fold_reactions(bed.state, bed.reactions);
-    report(bench, bed.state.particles.count(), fold_bytes(bed.state, bed.reactions));
+    for (auto _ : bench) fold_reactions(bed.state, bed.map(), bed.sums);
+    report(bench, bed.state.particles.count(), fold_bytes(bed.state, bed.map()));
   });
 }
 
@@ -146,29 +148,16 @@ void add_walls(const SettledColumn& c) {
   benchmark::RegisterBenchmark(("walls" + c.name()).c_str(), [=](benchmark::State& bench) {
     Bed& bed = settled_bed(c);
     const LawPasses law = bed.law(Friction::rolling);
-    for (auto _ : bench) law.evaluate_walls(bed.state, bed.reactions, still);
+    for (auto _ : bench) law.evaluate_walls(bed.state, bed.sums, still);
     report(bench, bed.state.particles.count(), wall_bytes(bed.state));
     bench.counters["rows_each"] = bed.state.wall_contacts.rows() / static_cast<double>(c.grains);
   });
 }
 
-/// All passes that make a list, in the order of time_step.cpp. The bed is sorted already.
-void make_list(Bed& bed) {
-  State& state = bed.state;
-  set_contacts_aside(state, bed.scratch);
-  wrap(state, bed.scratch);
-  choose_margins(state, 0.01 * state.mean_diameter, column_dt);
-  sort_by_cell(state, bed.scratch);
-  make_images(state, bed.scene.domain.axis);
-  find_contacts(state, bed.scratch, {bed.scene.domain.axis, false});
-  find_wall_contacts(state, bed.scratch);
-  map_reactions(state, bed.scene.domain.axis, bed.reactions);
-}
-
 void add_list(const SettledColumn& c) {
   benchmark::RegisterBenchmark(("list" + c.name()).c_str(), [=](benchmark::State& bench) {
     Bed& bed = settled_bed(c);
-    for (auto _ : bench) make_list(bed);
+    for (auto _ : bench) bed.list->renew(bed.state, column_dt);  // the bed is sorted already
     report(bench, bed.state.particles.count(), not_counted);
   });
 }

@@ -7,8 +7,8 @@
 
 #include "core/state.hpp"
 #include "kernels/laws/friction.hpp"
+#include "kernels/passes/force_sums.hpp"
 #include "kernels/passes/move.hpp"
-#include "kernels/passes/reactions.hpp"
 
 namespace wedge {
 
@@ -21,7 +21,7 @@ inline double seen_bytes(const State& state) {
 }
 inline double sum_bytes(const State& state) {
   const bool mixed = state.particles.seen.precision() == Precision::mixed;
-  return Reactions::sum_size * (mixed ? sizeof(float) : sizeof(double));
+  return ForceSums::sum_size * (mixed ? sizeof(float) : sizeof(double));
 }
 
 /// Arithmetic of a row of the default law with rolling friction and energy budget, grains alike: counted in the
@@ -34,16 +34,16 @@ struct RowArithmetic {
 
 /// Rows: both grains, the target; displacement read and written where there is friction. Grains and guests of
 /// tiles: what is seen of them, and their sum written.
-inline double contact_bytes(const State& state, const Reactions& reactions, Friction friction) {
+inline double contact_bytes(const State& state, const ReactionMap& map, Friction friction) {
   const double row = 3 * index_bytes + (friction == Friction::none ? 0 : 2 * vector_bytes);
-  const double sums = static_cast<double>(reactions.count());
+  const double sums = static_cast<double>(map.sums());
   return state.contacts.rows() * row + sums * (seen_bytes(state) + sum_bytes(state));
 }
 
 /// Guests: number, turn, sum. Their receivers: number, begin, sum read and written.
-inline double fold_bytes(const State& state, const Reactions& reactions) {
-  return static_cast<double>(reactions.source.size()) * (2 * index_bytes + sum_bytes(state)) +
-         static_cast<double>(reactions.receiver.size()) * (2 * index_bytes + 2 * sum_bytes(state));
+inline double fold_bytes(const State& state, const ReactionMap& map) {
+  return static_cast<double>(map.source.size()) * (2 * index_bytes + sum_bytes(state)) +
+         static_cast<double>(map.receiver.size()) * (2 * index_bytes + 2 * sum_bytes(state));
 }
 
 /// Rows: feature; touching, displacement, normal read and written; force, torque, overlap written. Grains near

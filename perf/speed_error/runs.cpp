@@ -46,7 +46,7 @@ struct Course {
         dt(scene.time_step),
         begin(from.begin),
         rest(from.rest) {
-    TimeStep::expire_list(state);
+    NeighbourList::expire(state);
   }
 
   void run(double seconds) {
@@ -74,13 +74,12 @@ struct Course {
   void some_steps(double end) {
     const int most = std::clamp(static_cast<int>((end - state.time) / dt) + 1, 1, look_every);
     steps += step.advance(state, dt, most);
-    for (const Departure& d : state.departures) crossings.push_back(d.time);
-    state.departures.clear();
+    for (const Departure& d : step.take_departures()) crossings.push_back(d.time);
   }
   void open() {
     step.change_walls(state, {state.vessel.wall_index(scene.name == "sandpile" ? "gate" : "plug")}, {});
   }
-  double copies() const { return std::max(1, state.symmetry.order()); }
+  double copies() const { return state.weight(0); }
 
   Scene scene;
   State state;
@@ -131,7 +130,7 @@ void measure_settled(const Course& c, Result& result) {
   result["overlap"] = overlap / touching / state.mean_diameter;
   result["stress"] = stress / (g * head);  // of the contacts, over that of a bed without walls
   result["heat"] = mean_kinetic_energy(state) / (p.mass[0] * g * state.mean_diameter);
-  const EnergyBudget budget = c.step.budget(state, c.begin);
+  const EnergyBudget budget = energy_budget(state.energy, c.begin, c.step.energies(state));
   result["residual"] = budget.residual / budget.lost;
 }
 
@@ -259,7 +258,7 @@ Result bed_run(const std::string& scene, const Variant& variant, int seed, Size 
       discharge_hopper(c, size, result);
     else
       collapse_pile(c, result);
-    const EnergyBudget budget = c.step.budget(c.state, c.begin);
+    const EnergyBudget budget = energy_budget(c.state.energy, c.begin, c.step.energies(c.state));
     result["residual_end"] = budget.residual / budget.lost;
   } catch (const PhysicsError&) {
     result["broke"] = 1;

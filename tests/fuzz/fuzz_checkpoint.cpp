@@ -4,7 +4,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "core/checksum.hpp"
+#include <xxhash.h>
+
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/checkpoint.hpp"
@@ -18,8 +19,8 @@ namespace {
 /// A checkpoint file whose head fits whatever follows it.
 void write_with_head(const std::string& path, const std::string& content) {
   std::string head(512, '\0');
-  const auto hash = fnv1a(fnv_start, reinterpret_cast<const unsigned char*>(content.data()), content.size());
-  std::snprintf(head.data(), head.size(), "wedge checkpoint 4\nbytes %020llu\nfnv1a64 %016llx\n",
+  const auto hash = XXH3_64bits(content.data(), content.size());
+  std::snprintf(head.data(), head.size(), "wedge checkpoint 5\nbytes %020llu\nxxh3_64 %016llx\n",
                 static_cast<unsigned long long>(content.size()), static_cast<unsigned long long>(hash));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << head << content;
 }

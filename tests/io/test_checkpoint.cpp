@@ -61,16 +61,11 @@ std::string bytes_of(const State& s) {
   number(s.mean_diameter);
   number(s.alike);
   number(s.wall_travel);
-  for (const std::int64_t whole : {s.step, s.list_builds, s.put_in, s.taken_out}) number(whole);
+  number(s.list_expired);
+  for (const std::int64_t whole : {s.step, s.list_builds, s.put_in, s.taken_out, s.next_id}) number(whole);
   for (int w = 0; w < s.vessel.wall_count(); ++w) {
     number(s.vessel.present(w));
     number(s.vessel.travel(w));
-  }
-  for (const Departure& d : s.departures) {
-    for (const int whole : {d.id, d.layer}) number(whole);
-    for (const double value :
-         {d.time, d.mass, d.position.x, d.position.y, d.position.z, d.velocity.x, d.velocity.y, d.velocity.z})
-      number(value);
   }
   number(n);
   return bytes;

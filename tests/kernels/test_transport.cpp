@@ -58,8 +58,9 @@ double drift_of_pair(Vec3 axis, int steps) {
   const Law::Coefficients coefficients[] = {Law::prepare(m, m, s.interactions(0, 0), s.contact)};
   Particles& p = e.state.particles;
   const GeneralMix<Law, double> mix{coefficients};
-  Reactions reactions;
-  map_reactions(e.state, AxisRule::clamp, reactions);
+  ReactionMap map;
+  map_reactions(e.state, AxisRule::clamp, map);
+  ForceSums sums;
   const double rate = 100, dt = 0.5 * pi / rate / steps;  // rad/s, s
   Vec3 before;
   for (int k = 0; k <= steps; ++k) {
@@ -71,11 +72,11 @@ double drift_of_pair(Vec3 axis, int steps) {
       seen.angular_velocity = rate * axis;
       p.seen.set(e.slot(id), seen);
     }
-    evaluate_contacts<Law, friction, true>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
-    if (k == 0) before = reactions.force(e.state.contacts.first[0]);
+    evaluate_contacts<Law, friction, true>(mix, e.state, map, sums, k == 0 ? 0 : dt, 0);
+    if (k == 0) before = sums.force(e.state.contacts.first[0]);
   }
   const double of_stress = norm(stored.get(0) - turned(stress, axis, 0.5 * pi)) / norm(stress);
-  CHECK(norm(reactions.force(e.state.contacts.first[0]) - turned(before, axis, 0.5 * pi)) <
+  CHECK(norm(sums.force(e.state.contacts.first[0]) - turned(before, axis, 0.5 * pi)) <
         2 * (of_stress + 1e-9) * norm(before));
   return of_stress;
 }
@@ -102,16 +103,16 @@ double drift_on_plate(int steps) {
   PairTable<Law::Coefficients> table(1);
   table(0, 0) = Law::prepare(s.materials[0], s.materials[0], s.interactions(0, 0), s.contact);
   const WallMix<Law> mix(table, e.state.vessel);
-  Reactions reactions;
-  map_reactions(e.state, AxisRule::clamp, reactions);
-  std::fill(reactions.double_sums.begin(), reactions.double_sums.end(), 0.0);
+  ForceSums sums;
+  sums.fit(p.count(), Precision::double_precision);
+  std::fill(sums.double_sums.begin(), sums.double_sums.end(), 0.0);
   Vec3 before;
   for (int k = 0; k <= steps; ++k) {
     const Vec3 x = turned(place, axis, rate * k * dt);
     p.position.set(0, x);
     const Seen seen = p.seen.get(0);
     p.seen.set(0, {x, seen.radius, rate * cross(axis, x), seen.mass, rate * axis, seen.material});
-    evaluate_walls<Law, friction, double>(mix, e.state, reactions, k == 0 ? 0 : dt, 0);
+    evaluate_walls<Law, friction, double>(mix, e.state, sums, k == 0 ? 0 : dt, 0);
     if (k == 0) before = c.force.get(row);
   }
   const double of_stress = norm(stored.get(row) - turned(stress, axis, 0.5 * pi)) / norm(stress);

@@ -221,8 +221,7 @@ TEST_CASE("hard: a bed that falls out of its pot at once, or sinks out of it, gr
       while (t.state.particles.count() > 0 && t.state.time < 1.6) {
         const std::set<std::int32_t> before = touching_grains(t.state);
         t.run_steps(1);
-        for (const Departure& gone : t.state.departures) touching += before.count(gone.id) > 0;
-        t.state.departures.clear();
+        for (const Departure& gone : t.step.take_departures()) touching += before.count(gone.id) > 0;
       }
       CHECK(t.state.particles.count() == 0);
       CHECK(t.state.taken_out == t.state.put_in);

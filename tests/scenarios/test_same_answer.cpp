@@ -5,7 +5,7 @@
 #include "apps/commands/commands.hpp"
 #include "apps/run/simulation.hpp"
 #include "core/parallel.hpp"
-#include "kernels/passes/reactions.hpp"
+#include "kernels/neighbours/reaction_map.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/same_run.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -123,7 +123,7 @@ public:
   }
   /// Force on the first grain of a row in the last force step [N].
   Vec3 contact_force(std::size_t row) const { return step.contact_forces(state).get(row); }
-  double residual() const { return step.residual(state, begin, step.energies(state)); }
+  double residual() const { return wedge::residual(state.energy, begin, step.energies(state)); }
 
   State state;
   TimeStep step;

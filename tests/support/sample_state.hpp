@@ -102,16 +102,6 @@ inline State sample_state(Index grains = 5) {
   s.vessel.set_present(0, false);
   s.vessel.set_present(1, true);
   s.vessel.set_travel(1, next());
-  for (int k = 0; k < 2; ++k) {
-    Departure d;
-    d.time = next();
-    d.id = start += 10;
-    d.layer = start += 10;
-    d.position = {next(), next(), next()};
-    d.velocity = {next(), next(), next()};
-    d.mass = next();
-    s.departures.push_back(d);
-  }
   s.time = next();
   s.wall_margin = next();
   s.wall_travel = next();
@@ -122,6 +112,8 @@ inline State sample_state(Index grains = 5) {
   s.alike = true;
   s.put_in = 23;
   s.taken_out = 29;
+  s.next_id = 31;
+  s.list_expired = true;
   return s;
 }
 

@@ -58,7 +58,7 @@ public:
     const EnergyLedger& l = state.energy;
     return l.normal_damping + l.tangential_damping + l.sliding + l.rolling + l.axis;
   }
-  double residual() const { return step.residual(state, begin, step.energies(state)); }
+  double residual() const { return wedge::residual(state.energy, begin, step.energies(state)); }
   /// The residual as a part of what was dissipated.
   double unexplained() const { return std::fabs(residual()) / dissipated(); }
   double deepest_overlap() const {  // m

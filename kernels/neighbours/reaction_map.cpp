@@ -1,5 +1,5 @@
-// reactions.cpp: the index map from contact rows to sums of forces, and the pass that folds guests back.
-#include "kernels/passes/reactions.hpp"
+// reaction_map.cpp: the index map from contact rows to sums of forces.
+#include "kernels/neighbours/reaction_map.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,9 +11,6 @@ namespace wedge {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// Sums of guests lie anywhere: each is asked for this many before it is needed.
-constexpr Index fetched_ahead = 16;
 
 /// Whether the second grain of row k feels the row.
 bool has_reaction(const State& state, AxisRule axis, std::size_t k) {
@@ -47,7 +44,7 @@ Guests find_guests(const State& state, AxisRule axis, Index tile) {
 }
 
 /// Lists for each grain the guest sums that are its own, ascending.
-void list_sources(const State& state, const std::vector<Guests>& guests, Reactions& r) {
+void list_sources(const State& state, const std::vector<Guests>& guests, ReactionMap& r) {
   const Index n = state.particles.count();
   const auto owner_of = [&](Index slot) { return slot < n ? slot : state.images.owner[at(slot - n)]; };
   std::vector<Index> place(at(n) + 1, 0);
@@ -76,29 +73,9 @@ void list_sources(const State& state, const std::vector<Guests>& guests, Reactio
   }
 }
 
-template <class Number>
-void fold(const State& state, Reactions& r) {
-  const auto last = static_cast<Index>(r.source.size()) - 1;
-  for_each(static_cast<Index>(r.receiver.size()), [&](Index m) {
-    Number* sum = r.sum<Number>(r.receiver[at(m)]);
-    const Index soon = std::min(r.source_begin[at(m)] + fetched_ahead, last);
-    __builtin_prefetch(r.sum<Number>(r.source[at(soon)]));
-    for (std::size_t s = at(r.source_begin[at(m)]); s < at(r.source_begin[at(m) + 1]); ++s) {
-      const Number* guest = r.sum<Number>(r.source[s]);
-      Vec3 force{guest[0], guest[1], guest[2]}, torque{guest[3], guest[4], guest[5]};
-      if (r.source_turn[s] != 0) {
-        force = state.symmetry.turn_vector(force, r.source_turn[s]);
-        torque = state.symmetry.turn_vector(torque, r.source_turn[s]);
-      }
-      const double felt[] = {force.x, force.y, force.z, torque.x, torque.y, torque.z, guest[6]};
-      for (int c = 0; c < 7; ++c) sum[c] += static_cast<Number>(felt[c]);
-    }
-  });
-}
-
 }  // namespace
 
-void map_reactions(const State& state, AxisRule axis, Reactions& r) {
+void map_reactions(const State& state, AxisRule axis, ReactionMap& r) {
   const ContactTable& c = state.contacts;
   const Index n = state.particles.count(), tiles = tile_count(n);
   std::vector<Guests> guests(at(tiles));
@@ -116,19 +93,8 @@ void map_reactions(const State& state, AxisRule axis, Reactions& r) {
                                                   : r.guests_begin[at(tile)] + guests[at(tile)].sum_of(slot);
     }
   });
-  const std::size_t numbers = Reactions::sum_size * at(r.count());
-  const bool mixed = state.particles.seen.precision() == Precision::mixed;
-  resize_anew(r.double_sums, mixed ? 0 : numbers);
-  resize_anew(r.single_sums, mixed ? numbers : 0);
   list_sources(state, guests, r);
   r.list = state.list_builds;
-}
-
-void fold_reactions(const State& state, Reactions& reactions) {
-  if (state.particles.seen.precision() == Precision::mixed)
-    fold<float>(state, reactions);
-  else
-    fold<double>(state, reactions);
 }
 
 }  // namespace wedge
