@@ -1,7 +1,7 @@
 // contact_laws.hpp: the contact laws by name, and what tells one from another outside the loops.
 //
-// A new law: its entry here (three lines), its class in a header of kernels/laws with the file that compiles its
-// passes, and its test.
+// A new law: its entry here (three lines), its class SomeLaw in kernels/laws/some_law.hpp, and its test. CMake
+// reads the entries and makes the files that compile the passes.
 #pragma once
 
 #include <tuple>

@@ -8,25 +8,22 @@
 namespace wedge {
 
 BodyPasses make_body_passes(const Scene& scene, const State& state, Friction friction, bool uniform) {
-  std::variant<
-      std::integral_constant<Friction, Friction::none>, std::integral_constant<Friction, Friction::sliding>,
-      std::integral_constant<Friction, Friction::rolling>, std::integral_constant<Friction, Friction::spring>>
+  // What grains do differs by these alone: whence a couple comes makes no difference here.
+  std::variant<std::integral_constant<Friction, Friction::none>,
+               std::integral_constant<Friction, Friction::sliding>,
+               std::integral_constant<Friction, Friction::rolling>>
       level;
-  if (friction == Friction::sliding) level.emplace<1>();
+  if (friction == Friction::sliding || has_couples(friction)) level.emplace<1>();
   if (friction == Friction::rolling) level.emplace<2>();
-  if (has_couples(friction)) level.emplace<3>();  // whence a couple comes makes no difference here
   const bool sector = state.symmetry.kind() == Symmetry::Kind::rotation;
   const AnyAxisAction action = as_type(sector ? traits_of(scene.domain.axis).action : AxisAction::none);
   std::variant<std::false_type, std::true_type> alike;
   if (uniform && state.particles.count() > 0) alike.emplace<1>();
 
-  std::variant<double, float> width;
-  if (scene.run.precision == Precision::mixed) width = 0.0f;
-
   const Vec3 g{scene.domain.gravity.x(), scene.domain.gravity.y(), scene.domain.gravity.z()};
   BodyPasses passes;
   std::visit(
-      [&](auto f, auto axis, auto one_kind, auto number) {
+      [&](auto f, auto axis, auto one_kind) {
         constexpr Friction need = decltype(f)::value;
         constexpr AxisAction act = decltype(axis)::value;
         constexpr bool same = decltype(one_kind)::value;
@@ -41,14 +38,14 @@ BodyPasses make_body_passes(const Scene& scene, const State& state, Friction fri
         };
         const auto moves = [=](auto halves) {
           return [=](State& s, const ForceSums& sums, double dt) {
-            return move_grains<decltype(halves)::value, need, act, decltype(number)>(bodies(s), s, sums, g, dt);
+            return move_grains<decltype(halves)::value, need, act>(bodies(s), s, sums, g, dt);
           };
         };
         passes.first_half = moves(std::integral_constant<Halves, Halves::first>{});
         passes.second_half = moves(std::integral_constant<Halves, Halves::second>{});
         passes.second_and_first_half = moves(std::integral_constant<Halves, Halves::second_and_first>{});
       },
-      level, action, alike, width);
+      level, action, alike);
   return passes;
 }
 

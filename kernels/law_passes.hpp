@@ -14,9 +14,11 @@ struct ElasticEnergy {
   double normal = 0, tangential = 0;  // J
 };
 
+using ContactPass = std::function<void(State&, const ReactionMap&, ForceSums&, double dt)>;
+
 /// What varies from scene to scene; every member is chosen before the first step and calls a loop without options.
 struct LawPasses {
-  std::function<void(State&, const ReactionMap&, ForceSums&, double dt)> evaluate_contacts;
+  ContactPass evaluate_contacts;
   std::function<void(State&, ForceSums&, double dt)> evaluate_walls;
   std::function<Vec3Array(const State&)> contact_forces;  // see contact_forces.hpp
   /// Elastic energy of all contacts for which `counts(slot of a grain)` holds for either grain; every contact if
@@ -30,9 +32,14 @@ Friction needed_friction(const Scene& scene);
 /// The passes of the scene's law. Pre: as make_law_passes.
 LawPasses choose_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform);
 
-/// Those of one law; compiled in passes_NAME.cpp. Pre: all grains of `state` stay as uniform as they are now:
-/// `uniform` says that radius and material are one.
+/// Those of one law, compiled in a file that CMake makes of law_passes.cpp.in. Pre: all grains of `state` stay as
+/// uniform as they are now: `uniform` says that radius and material are one.
 template <class Law>
 LawPasses make_law_passes(const Scene& scene, const State& state, Friction friction, bool uniform);
+
+/// Its pass over contacts between grains, in the width `Number`, compiled in one made of contact_pass.cpp.in.
+template <class Law, class Number>
+ContactPass make_contact_pass(const PairTable<typename Law::Coefficients>& table, const Scene& scene,
+                              const State& state, Friction friction, bool uniform);
 
 }  // namespace wedge

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# run.sh: builds wedge with assertions and warnings as errors and runs every test, and with them perf/smoke/smoke.sh, which
-# fails when the step has become slower or computes something else. Other ways to run them:
+# run.sh: builds wedge with assertions and warnings as errors and runs every test but the long ones. Other ways:
 #   --clang           built with clang
 #   --asan            under the address and undefined-behaviour sanitizers
 #   --tsan            under the thread sanitizer, with clang and its OpenMP runtime
-#   --nightly         the long ones: fifty kills, a heavy drop, two million grains
+#   --nightly         the long ones: fifty kills, a heavy drop, two million grains, clang-tidy, and perf/smoke/smoke.sh,
+#                     which fails when the step has become slower
 #   --validate        those that compare with known numbers, and the hard cases; writes their tables into tests/README.md
 #   --fuzz [SECONDS]  no tests: each reader under libFuzzer for so long (600 s), one after the other
 set -euo pipefail
@@ -112,7 +112,11 @@ case "$mode" in
   "" | --nightly | --validate)
     needed=()
     command -v g++ >/dev/null || needed+=(g++)
-    [ -n "$mode" ] || needed+=(valgrind binutils python3-matplotlib python3-numpy)  # of perf/smoke/smoke.sh, wedge report
+    # for perf/smoke, the report and the study, the style
+    case "$mode" in
+      "") needed+=(binutils python3-matplotlib python3-numpy clang-format) ;;
+      --nightly) needed+=(binutils valgrind clang-tidy) ;;
+    esac
     install_needed "${needed[@]}"
     build build/tests g++ -DWEDGE_WARNINGS_AS_ERRORS=ON
     [ "$mode" != --validate ] || { validate build/tests; exit; }

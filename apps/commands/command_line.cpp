@@ -205,14 +205,12 @@ private:
     compare->add_option("--moment", compare_.moment, "compare this moment only")->type_name("NAME");
   }
   void add_analyse() {
-    CLI::App* analyse =
-        command("analyse", "Measure a run into DIR/results (--definitions says what)", [this] {
-          if (definitions_) return command_definitions();
-          if (analyse_.folder.empty()) return usage("analyse needs DIR, or --definitions");
-          if (analyse_.from && analyse_.to && *analyse_.from > *analyse_.to)
-            return usage("--from is later than --to");
-          return command_analyse(analyse_);
-        });
+    CLI::App* analyse = command("analyse", "Measure a run into DIR/results (--definitions says what)", [this] {
+      if (definitions_) return command_definitions();
+      if (analyse_.folder.empty()) return usage("analyse needs DIR, or --definitions");
+      if (analyse_.from && analyse_.to && *analyse_.from > *analyse_.to) return usage("--from is later than --to");
+      return command_analyse(analyse_);
+    });
     analyse->add_option("DIR", analyse_.folder, "folder of the run");
     analyse->add_flag("--definitions", definitions_, "print what every quantity means, and nothing else");
     const auto time_option = [&](const char* name, std::optional<double>& time, const char* meaning) {

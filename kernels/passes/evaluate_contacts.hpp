@@ -5,12 +5,10 @@
 #include "core/parallel.hpp"
 #include "core/state.hpp"
 #include "kernels/laws/contact_law.hpp"
-#include "kernels/laws/friction.hpp"
 #include "kernels/laws/history.hpp"
 #include "kernels/laws/rolling.hpp"
-#include "kernels/passes/contact_kinematics.hpp"
+#include "kernels/passes/contact_geometry.hpp"
 #include "kernels/passes/pair_mix.hpp"
-#include "kernels/passes/slab.hpp"
 
 namespace wedge {
 
@@ -41,91 +39,6 @@ struct PackLosses {
             simd::reduce(tangential_work), simd::reduce(rolling)};
   }
 };
-
-/// The stored vectors of a slab of rows, three numbers a row: in the contact table, or in columns for the rows at
-/// the end of a tile, which do not fill a slab. Doubles, whatever the width of the work on them.
-struct StoredVectors {
-  double *x = nullptr, *y = nullptr, *z = nullptr;
-  template <class Real>
-  WEDGE_INLINE Vector3<Real> load(Index row) const {
-    return {wedge::load<Real>(x + row), wedge::load<Real>(y + row), wedge::load<Real>(z + row)};
-  }
-  template <class Real>
-  WEDGE_INLINE void store(Index row, const Vector3<Real>& v) const {
-    wedge::store(x + row, v.x);
-    wedge::store(y + row, v.y);
-    wedge::store(z + row, v.z);
-  }
-};
-struct StoredSlab {
-  StoredVectors history, couple, rolling_moment;
-};
-
-/// What the law sees of the rows of a slab.
-template <class Number>
-struct ContactSlab {
-  ColumnOf<Number> overlap, approach;
-  VectorColumnsOf<Number> normal, back, tangential_velocity, displacement;
-};
-
-/// Constants of a force step.
-template <class Number>
-struct ForceStep {
-  Number dt;               // s, since the last force step
-  Number rolling_damping;  // of critical, of rolling springs
-};
-
-/// Overlap [m] of a pack of rows, zero while they are apart: the sum of the radii less the distance; in single
-/// precision the same from the difference of their squares, which is one of doubles.
-WEDGE_INLINE Pack overlap_of(const SeenSlab<double>&, Index, const Pack& radii, const Pack& distance) {
-  using std::max;
-  return max(Pack(0), radii - distance);
-}
-WEDGE_INLINE PackOf<float> overlap_of(const SeenSlab<float>& of, Index row, const PackOf<float>& radii,
-                                      const PackOf<float>& distance) {
-  using std::max;
-  return max(PackOf<float>(0), of.closeness.load(row) / (radii + distance));
-}
-
-/// Geometry of each row, and transport of its history.
-/// The displacement grows by the trapezoidal rule from first touch on: what is stored between steps is
-/// delta + (dt/2) v_t, so that the next half step needs no old velocity (kernels/README.md, "Stored displacement").
-template <Friction friction, class Mix, class Number = typename Mix::Number>
-inline void approach(const Mix& mix, const ForceStep<Number>& step, const SeenSlab<Number>& of,
-                     const StoredSlab& stored, Index rows, ContactSlab<Number>& to) {
-  using std::sqrt;
-  using Real = PackOf<Number>;
-  using Vector = Vector3<Real>;
-  for (Index row = 0; row < rows; row += lanes<Number>) {
-    const auto pairs = mix.pairs(of, row);
-    const Vector d = -of.apart.load(row);
-    const Real distance = sqrt(dot(d, d)), inverse = 1 / distance;
-    const Vector n = inverse * d;
-    const Real overlap = overlap_of(of, row, pairs.radius_first + pairs.radius_second, distance);
-    const Vector v = of.speed.load(row);
-    to.overlap.store(row, overlap);
-    to.normal.store(row, n);
-    if constexpr (friction == Friction::none) {
-      to.approach.store(row, dot(v, n));
-    } else {
-      // The second grain was at d + dt v seen from the first, so the normal along n + back.
-      const Vector back = (step.dt * inverse) * (v - dot(v, n) * n);
-      if constexpr (friction == Friction::spring) to.back.store(row, back);
-      const Vector spins = of.spins.load(row);
-      const Vector spin_difference = Mix::alike ? Vector{} : of.spin_difference.load(row);
-      const ContactVelocity<Real> seen =
-          along_and_across(surface_velocity<Mix::alike>(v, spins, spin_difference, d, n,
-                                                        Real(pairs.radius_first - pairs.radius_second)),
-                           n);
-      const Vector before = stored.history.load<Real>(row);
-      const Vector followed = follow_turning_normal(before, back, n);
-      to.approach.store(row, seen.approach);
-      to.tangential_velocity.store(row, seen.tangential);
-      to.displacement.store(row, turn_with_spins(followed, n, spins, step.dt) +
-                                     slip_time(before, overlap, seen.approach, step.dt) * seen.tangential);
-    }
-  }
-}
 
 /// Rolling couples of a pack of rows. `loss` grows by the work done against them. Pre: grains are not taken as
 /// alike (Mix::alike is false).
@@ -311,7 +224,7 @@ private:
       for (Index row = 0; row < slab_size; ++row)
         most_contacts_.number[row] =
             static_cast<Number>(row < rows ? std::max(contact_count(first[row]), contact_count(second[row])) : 1);
-    approach<friction>(mix_, step_, seen_, stored, rows, contacts_);
+    approach<friction, Mix::alike>(mix_.common_radius(), step_, seen_, stored, rows, contacts_);
     respond<Law, friction, with_budget>(mix_, step_, seen_, contacts_, stored, most_contacts_, rows, outcome_,
                                         losses_);
     add_to_sums<Mix::alike>(outcome_, first, map_.target.data() + from, rows, sums_.template sum<Number>(0));

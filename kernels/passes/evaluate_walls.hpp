@@ -54,9 +54,9 @@ struct WallSlab {
   Column rolling_cap;
 };
 
-/// Blocks of the wall contact table.
-/// `Number` is the width of what is seen of grains and of their sums; the walls' own work is done in doubles.
-template <class Law, Friction friction, class Number>
+/// Blocks of the wall contact table. The walls' work is done in doubles, whatever the width of what is seen of
+/// grains and of their sums.
+template <class Law, Friction friction>
 class WallPass {
 public:
   WallPass(const WallMix<Law>& mix, State& state, ForceSums& sums, const ForceStep<double>& step)
@@ -102,7 +102,7 @@ private:
       return;
     }
     const int wall = state_.vessel.carrier(c_.feature[k]);
-    const auto seen = seen_in<double>(state_.particles.seen.template data<Number>()[i]);
+    const Seen seen = state_.particles.seen.get(static_cast<std::size_t>(i));
     const Index m = slab_.count++;
     slab_.row[m] = static_cast<Index>(k);
     slab_.grain[m] = i;
@@ -134,6 +134,16 @@ private:
       slab_.coefficients[m] = slab_.coefficients[0];
     }
     for (Index m = 0; m < slab_.count; m += pack_size) respond(m);
+    if (sums_.narrow())
+      give<float>();
+    else
+      give<double>();
+    slab_.count = 0;
+  }
+
+  /// Gives the slab's rows and grains what is theirs. `Number` is the width of the sums.
+  template <class Number>
+  void give() {
     for (Index m = 0; m < slab_.count; ++m) {
       const auto k = static_cast<std::size_t>(slab_.row[m]);
       const Vec3 force = get(slab_.force, m);
@@ -156,7 +166,6 @@ private:
       if constexpr (friction == Friction::rolling) add(6, slab_.rolling_cap.number[m]);
       if constexpr (friction == Friction::spring) c_.rolling_moment.set(k, get(slab_.rolling_moment, m));
     }
-    slab_.count = 0;
   }
 
   /// A pack of the slab. A wall has no inertia and no radius: m* and R* are those of the grain.
@@ -249,12 +258,12 @@ private:
 /// Pre: fold_reactions ran; dt as in evaluate_contacts.
 /// Post: wall forces are in the table and added to the sums of the grains.
 /// Throws PhysicsError when a grain's centre has gone through a wall.
-template <class Law, Friction friction, class Number>
+template <class Law, Friction friction>
 void evaluate_walls(const WallMix<Law>& mix, State& state, ForceSums& sums, double dt, double rolling_damping) {
   const WallLosses sum = reduce_blocks(
       static_cast<Index>(state.wall_contacts.grain.size()), WallLosses{},
       [&](Index begin, Index end) {
-        return WallPass<Law, friction, Number>(mix, state, sums, {dt, rolling_damping}).evaluate(begin, end);
+        return WallPass<Law, friction>(mix, state, sums, {dt, rolling_damping}).evaluate(begin, end);
       },
       [](const WallLosses& a, const WallLosses& b) { return a + b; });
   book(sum.contact, state.energy);

@@ -33,8 +33,9 @@ struct ForceSums {
   const Number* sum(Index s) const {
     return const_cast<ForceSums*>(this)->sum<Number>(s);
   }
+  bool narrow() const { return !single_sums.empty(); }
   double component(Index s, std::size_t c) const {
-    return single_sums.empty() ? sum<double>(s)[c] : static_cast<double>(sum<float>(s)[c]);
+    return narrow() ? static_cast<double>(sum<float>(s)[c]) : sum<double>(s)[c];
   }
   Vec3 force(Index s) const { return {component(s, 0), component(s, 1), component(s, 2)}; }
   Vec3 torque(Index s) const { return {component(s, 3), component(s, 4), component(s, 5)}; }

@@ -3,9 +3,8 @@
 
 #include "core/parallel.hpp"
 #include "core/state.hpp"
-#include "kernels/passes/force_sums.hpp"
+#include "kernels/passes/grain_columns.hpp"
 #include "kernels/passes/integrate.hpp"
-#include "kernels/passes/slab.hpp"
 
 namespace wedge {
 
@@ -77,59 +76,7 @@ inline MoveResult operator+(const MoveResult& a, const MoveResult& b) {
           a.stale || b.stale};
 }
 
-/// A slab of grains as columns, to be turned into records, or out of them.
-struct GrainColumns {
-  Column number[seen_size];
-
-  /// Writes what contacts will see of the first `count` grains.
-  template <class Number>
-  void write(SeenOf<Number>* to, Index count) const {
-    for (Index row = 0; row < count; row += 8) {
-      const auto columns = [&](std::size_t c) { return number[c].load_eight(row); };
-      const auto narrow = [&](std::size_t c) { return __builtin_convertvector(columns(c), EightFloats); };
-      const Index rows = std::min<Index>(8, count - row);
-      if constexpr (std::is_same_v<Number, float>) {
-        const Eight place[] = {columns(0), columns(1), columns(2), columns(3)};
-        const EightFloats motion[] = {narrow(4), narrow(5), narrow(6),  narrow(7),
-                                      narrow(8), narrow(9), narrow(10), narrow(11)};
-        Four places[8];
-        EightFloats motions[8];
-        transpose(place, places);
-        transpose(motion, motions);
-        for (Index r = 0; r < rows; ++r) {
-          *reinterpret_cast<Four*>(&to[row + r].position) = places[r];
-          *reinterpret_cast<EightFloats*>(&to[row + r].velocity) = motions[r];
-        }
-      } else {
-        const Eight motion[] = {columns(0), columns(1), columns(2), columns(3),
-                                columns(4), columns(5), columns(6), columns(7)};
-        const Eight spin[] = {columns(8), columns(9), columns(10), columns(11)};
-        Eight motions[8];
-        Four spins[8];
-        transpose(motion, motions);
-        transpose(spin, spins);
-        for (Index r = 0; r < rows; ++r) {
-          *reinterpret_cast<UnalignedEight*>(&to[row + r]) = motions[r];
-          *reinterpret_cast<Four*>(&to[row + r].angular_velocity) = spins[r];
-        }
-      }
-    }
-  }
-  /// Reads the sums of the first `count` grains.
-  template <class Number>
-  void read(const Number* sums, Index count) {
-    for (Index row = 0; row < count; row += 8) {
-      eight_of<Number> records[8], columns[8];
-      for (Index r = 0; r < 8; ++r)
-        records[r] = reinterpret_cast<const eight_of<Number>*>(sums)[std::min(row + r, count - 1)];
-      transpose(records, columns);
-      for (std::size_t c = 0; c < ForceSums::sum_size; ++c) number[c].store_eight(row, columns[c]);
-    }
-  }
-};
-
-/// `Number` is the width of what contacts see and of the sums of forces.
-template <Halves halves, Friction friction, AxisAction axis, class Number, class Bodies>
+template <Halves halves, Friction friction, AxisAction axis, class Bodies>
 class MovePass {
 public:
   MovePass(const Bodies& bodies, Particles& p, const ForceSums& sums, Vec3 gravity, double dt)
@@ -145,7 +92,7 @@ public:
         reference_(p.reference),
         cap_(p.rolling_cap.data()),
         margin_(p.list_margin.data()),
-        seen_(p.seen.data<Number>()) {}
+        seen_(p.seen) {}
 
   /// Grains [begin, end).
   MoveResult move(Index begin, Index end) {
@@ -153,11 +100,11 @@ public:
     Losses<double> singles;
     for (Index from = begin; from < end; from += slab_size) {
       const Index count = std::min(slab_size, end - from);
-      if constexpr (halves != Halves::first) columns_.read(sums_.sum<Number>(from), count);
+      if constexpr (halves != Halves::first) columns_.read(sums_, from, count);
       Index row = 0;
       for (; row + pack_size <= count; row += pack_size) move(from, row, packs);
       for (; row < count; ++row) move(from, row, singles);
-      if constexpr (halves != Halves::second) shown_.write(seen_ + from, count);
+      if constexpr (halves != Halves::second) shown_.write(seen_, from, count);
     }
     const auto total = [](const KickLossesOf<Pack>& p, const KickLossesOf<double>& s) {
       return KickLossesOf<double>{simd::reduce(p.rolling) + s.rolling, simd::reduce(p.axis) + s.axis};
@@ -241,7 +188,7 @@ private:
   const Components x_, v_, w_, force_, torque_, reference_;
   double* const cap_;
   const double* const margin_;
-  SeenOf<Number>* const seen_;
+  SeenTable& seen_;
   GrainColumns columns_, shown_;  // of the sums, and of what contacts will see
 };
 
@@ -249,12 +196,12 @@ private:
 /// dt/2, drifts by dt, and predicts the velocities that contacts will see at the new time. Returns whether the
 /// neighbour list went stale. Post: after `second` alone, force, torque and rolling_cap hold the forces of the
 /// step, which `first` alone starts from.
-template <Halves halves, Friction friction, AxisAction axis, class Number, class Bodies>
+template <Halves halves, Friction friction, AxisAction axis, class Bodies>
 bool move_grains(const Bodies& bodies, State& state, const ForceSums& sums, Vec3 gravity, double dt) {
   const MoveResult result = reduce_blocks(
       state.particles.count(), MoveResult{},
       [&](Index begin, Index end) {
-        return MovePass<halves, friction, axis, Number, Bodies>(bodies, state.particles, sums, gravity, dt)
+        return MovePass<halves, friction, axis, Bodies>(bodies, state.particles, sums, gravity, dt)
             .move(begin, end);
       },
       [](const MoveResult& a, const MoveResult& b) { return a + b; });

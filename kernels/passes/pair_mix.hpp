@@ -30,6 +30,7 @@ struct UniformMix {
   static constexpr bool alike = true;
   Number radius, mass;
   Coefficients coefficients;
+  Number common_radius() const { return radius; }
 
   WEDGE_INLINE PackOfPairs<Coefficients, Real> pairs(const SeenSlab<Number>&, Index) const {
     return {Real(radius), Real(radius), Real(radius / 2), Real(mass / 2), coefficients};
@@ -53,6 +54,7 @@ struct SizeMix {
   using Coefficients = typename Law::template CoefficientsOf<Number>;
   static constexpr bool alike = false;
   Coefficients coefficients;
+  Number common_radius() const { return 0; }
 
   WEDGE_INLINE PackOfPairs<Coefficients, Real> pairs(const SeenSlab<Number>& s, Index row) const {
     return pairs_of_sizes(s, row, coefficients);
@@ -67,6 +69,7 @@ struct GeneralMix {
   using PackCoefficients = typename Law::template CoefficientsOf<Real>;
   static constexpr bool alike = false;
   const typename Law::Coefficients* table;  // by PairTable slot
+  Number common_radius() const { return 0; }
 
   WEDGE_INLINE PackOfPairs<PackCoefficients, Real> pairs(const SeenSlab<Number>& s, Index row) const {
     const auto get = [&](double Law::Coefficients::*member) {
