@@ -74,6 +74,23 @@ struct Particles {
     visit(FieldInfo{"turns", "", "sector angles by which to turn the position to unroll the path"}, p.turns);
   }
 
+  /// Calls visit(name, field) for what files of grains show (frames, .vtp), vectors as one: a part of the list
+  /// above.
+  template <class Self, class Visit>
+  static void for_each_frame_field(Self& p, Visit&& visit) {
+    visit("position", p.position);
+    visit("velocity", p.velocity);
+    visit("angular_velocity", p.angular_velocity);
+    visit("force", p.force);
+    visit("torque", p.torque);
+    visit("radius", p.radius);
+    visit("mass", p.mass);
+    visit("material", p.material);
+    visit("id", p.id);
+    visit("layer", p.layer);
+    visit("turns", p.turns);
+  }
+
   /// Post: every field has n slots; images are gone.
   void resize(Index n) {
     for_each_field(*this, [&](const FieldInfo&, auto& field) { field.resize(static_cast<std::size_t>(n)); });

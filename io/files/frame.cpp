@@ -12,22 +12,6 @@ namespace {
 constexpr int format_version = 1;
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3;  // vtkCellType.h
 
-/// The grain fields of a frame: visit(name, field). One list for writing and reading.
-template <class Self, class Visit>
-void for_each_frame_field(Self& p, Visit&& visit) {
-  visit("position", p.position);
-  visit("velocity", p.velocity);
-  visit("angular_velocity", p.angular_velocity);
-  visit("force", p.force);
-  visit("torque", p.torque);
-  visit("radius", p.radius);
-  visit("mass", p.mass);
-  visit("material", p.material);
-  visit("id", p.id);
-  visit("layer", p.layer);
-  visit("turns", p.turns);
-}
-
 const void* address_of(const Vec3Array& field) { return &field.x; }
 template <class T>
 const void* address_of(const Array<T>& field) {
@@ -212,11 +196,11 @@ void write_particle_frame(const std::string& path, const State& state, const Fra
   const Particles& p = state.particles;
   const auto n = static_cast<std::size_t>(p.count());
   writer.file().group("particles");
-  for_each_frame_field(p, [&](const char* name, const auto& field) {
+  Particles::for_each_frame_field(p, [&](const char* name, const auto& field) {
     writer.field("particles", info_of(p, name, field), field, n);
   });
   writer.vtk_grid("particles/position", n, 1, vtk_vertex);
-  for_each_frame_field(p, [&](const std::string& name, const auto&) {
+  Particles::for_each_frame_field(p, [&](const std::string& name, const auto&) {
     if (name != "position") writer.file().link("particles/" + name, "VTKHDF/PointData/" + name);
   });
   writer.save();
@@ -279,7 +263,7 @@ ParticleFrame read_particle_frame(const std::string& path) {
   p.resize(static_cast<Index>(n));
   Particles::for_each_field(p, [](const FieldInfo&, auto& field) { std::fill(field.begin(), field.end(), 0); });
   for (std::size_t i = 0; i < p.seen.size(); ++i) p.seen.set(i, Seen{});
-  for_each_frame_field(
+  Particles::for_each_frame_field(
       p, [&](const std::string& name, auto& field) { read_field(file, "particles/" + name, field, n); });
   return frame;
 }

@@ -135,22 +135,19 @@ std::vector<double> tuples(const Vec3Array& field, std::size_t n) {
 void write_particles_vtp(const std::string& path, const Particles& p) {
   const auto n = static_cast<std::size_t>(p.count());
   PolyData file(n, n, 0);
-  const auto vectors = [&](const char* name, const Vec3Array& field) {
-    file.array(name, tuples(field, n).data(), 3 * n, 3);
+  const auto write = [&](const char* name, const auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Vec3Array>)
+      file.array(name, tuples(field, n).data(), 3 * n, 3);
+    else
+      file.array(name, field.data(), n);
   };
   file.open("PointData");
-  file.array("radius", p.radius.data(), n);
-  file.array("mass", p.mass.data(), n);
-  vectors("velocity", p.velocity);
-  vectors("angular_velocity", p.angular_velocity);
-  vectors("force", p.force);
-  file.array("material", p.material.data(), n);
-  file.array("id", p.id.data(), n);
-  file.array("layer", p.layer.data(), n);
-  file.array("turns", p.turns.data(), n);
+  Particles::for_each_frame_field(p, [&](const char* name, const auto& field) {
+    if (static_cast<const void*>(&field) != &p.position) write(name, field);
+  });
   file.close("PointData");
   file.open("Points");
-  vectors("Points", p.position);
+  write("Points", p.position);
   file.close("Points");
   std::vector<std::int64_t> connectivity(n), offsets(n);
   for (std::size_t i = 0; i < n; ++i) {
