@@ -1,5 +1,6 @@
 # figures_scalars.py: every number that the vocabulary names against the angle, sectors beside the full vessel.
 import math
+import textwrap
 
 import numpy as np
 
@@ -39,7 +40,7 @@ def panel(axes, vessel, moment, name):
     axes.set_xlim(-0.5, len(sectors) - 0.5)
     axes.set_xticks(range(len(sectors)))
     axes.set_xticklabels([angle_label(e.order) for e in sectors], fontsize=7, rotation=45)
-    axes.set_title(with_unit(name), fontsize=7.5)
+    axes.set_title(textwrap.fill(with_unit(name), 30), fontsize=7)
     axes.tick_params(axis="y", labelsize=7)
 
 

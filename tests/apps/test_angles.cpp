@@ -99,6 +99,7 @@ TEST_CASE("n = 7, 13, 16: regions, wedges, scalars and distributions come throug
     comparisons.push_back(hoppers.folder / ("hopper_a" + angle_text(n) + ".csv"));
     CompareOptions options;
     options.csv = comparisons.back();
+    options.moment = "discharge_mean";
     REQUIRE(command_compare({full}, {sector}, options) == exit_code::ok);
     for (const char* key : {"scalar,discharge_mean,all,axis_zone_cn,", "distribution,discharge_mean,axis_zone,cn,",
                             "distribution,discharge_mean,rest,vz,", "profile,discharge_mean,axis_zone,cn,",
