@@ -3,16 +3,14 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <sstream>
 #include <tuple>
 
-#include "apps/commands/commands.hpp"
-#include "apps/results/vocabulary.hpp"
 #include "core/require.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/tables/csv.hpp"
+#include "tests/support/compare_command.hpp"
 #include "tests/support/synthetic_study.hpp"
 
 using namespace wedge;
@@ -21,65 +19,6 @@ using namespace wedge::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Said {
-  int code = 0;
-  std::string text, errors;
-};
-
-/// Runs the command with its output caught.
-Said compare(const std::vector<std::string>& reference, const std::vector<std::string>& with,
-             const CompareOptions& options = {}) {
-  std::ostringstream out, errors;
-  std::streambuf *const screen = std::cout.rdbuf(out.rdbuf()), *const complaints = std::cerr.rdbuf(errors.rdbuf());
-  Said said;
-  const auto restore = [&] {
-    std::cout.rdbuf(screen);
-    std::cerr.rdbuf(complaints);
-  };
-  try {
-    said.code = command_compare(reference, with, options);
-  } catch (...) {
-    restore();
-    throw;
-  }
-  restore();
-  said.text = out.str();
-  said.errors = errors.str();
-  return said;
-}
-
-bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
-
-using Row = std::map<std::string, std::string>;
-std::vector<Row> rows_of(const std::string& path) {
-  std::istringstream text(read_text_file(path));
-  std::vector<Row> rows;
-  std::string line;
-  std::getline(text, line);
-  const std::vector<CsvField> names = split_csv_line(line);
-  while (std::getline(text, line)) {
-    const std::vector<CsvField> fields = split_csv_line(line);
-    REQUIRE(fields.size() == names.size());
-    Row row;
-    for (std::size_t k = 0; k < names.size(); ++k) row[names[k].text] = fields[k].text;
-    rows.push_back(row);
-  }
-  return rows;
-}
-double number(const Row& row, const std::string& column) {
-  double value = 0;
-  REQUIRE(parse_number(row.at(column), value) == NumberError::none);
-  return value;
-}
-
-/// Every `what` of a file becomes `with`.
-void rewrite(const std::string& path, const std::string& what, const std::string& with) {
-  std::string text = read_text_file(path);
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-    text.replace(at, what.size(), with);
-  write_text_file_atomically(path, text);
-}
 
 const char* const result_files[] = {"scalars.csv", "distributions.csv", "radial.csv", "map.csv"};
 
@@ -187,59 +126,6 @@ TEST_CASE("The same runs compared with themselves do not differ, twice to the sa
     CHECK(row.at("region") == "all");  // a full vessel has no axis zone
   }
   CHECK(compare(full, full, options).text == first.text);
-}
-
-TEST_CASE("What is compared of scalars, distributions, profiles and maps is what the vocabulary says",
-          "[compare]") {
-  Study study;
-  const auto full = study.full(1), sector = study.sectors(1, 0);
-  std::string scalars = "moment,part,quantity,unit,value,low,high\n";
-  std::string distributions = "moment,part,region,quantity,unit,scale,step,first,counts\n";
-  std::map<std::string, std::vector<std::string>> expected, found;
-  for (const ResultQuantity* q : quantities_in(in_scalars)) {
-    scalars += std::string("settle,whole,") + q->name + "," + q->unit + ",1,nan,nan\n";
-    if (q->compared()) expected["scalar"].push_back(q->name);
-  }
-  for (const ResultQuantity* q : quantities_in(in_distributions)) {
-    distributions += std::string("settle,whole,all,") + q->name + "," + q->unit + ",1,0,0,1 2\n";
-    if (q->compared()) expected["distribution"].push_back(q->name);
-  }
-  for (const auto& [kind, file, table] :
-       {std::tuple{"profile", "radial.csv", in_profile}, std::tuple{"map", "map.csv", in_map}}) {
-    std::string head = "moment,part", row = "settle,whole";
-    for (const ResultQuantity* q : quantities_in(table)) {
-      head += "," + heading(q->name);
-      row += ",1";
-      if (q->compared() && q->name != std::string(row_weight)) expected[kind].push_back(q->name);
-    }
-    for (const std::string& folder : {full[0], sector[0]})
-      write_text_file_atomically(folder + "/results/" + file, head + "\n" + row + "\n");
-  }
-  for (const std::string& folder : {full[0], sector[0]}) {
-    write_text_file_atomically(folder + "/results/scalars.csv", scalars);
-    write_text_file_atomically(folder + "/results/distributions.csv", distributions);
-  }
-  CompareOptions options;
-  options.csv = study.path("rows.csv");
-  compare(full, sector, options);
-  for (const Row& row : rows_of(options.csv))
-    if (row.at("region") == "all" && row.at("measure") != "ks") {
-      found[row.at("kind")].push_back(row.at("quantity"));
-      CHECK(row.at("unit") == quantity(row.at("quantity")).unit);
-    }
-  CHECK(found == expected);
-
-  // Sums over a vessel and over a slot have nothing to do with each other.
-  rewrite(sector[0] + "/scene.resolved.toml", "angle = 90", "kind = \"slot\"\nwidth = 0.02");
-  rewrite(sector[0] + "/scene.resolved.toml", "r = [0, \"20 d\"]", "x = [0, \"20 d\"]");
-  compare(full, sector, options);
-  int rows = 0;
-  for (const Row& row : rows_of(options.csv)) {
-    const QuantityKind kind = quantity(row.at("quantity")).kind;
-    CHECK((kind != QuantityKind::extensive && kind != QuantityKind::per_height));
-    ++rows;
-  }
-  CHECK(rows > 20);
 }
 
 TEST_CASE("Folders that lack files are compared in what they have", "[compare]") {
