@@ -153,7 +153,7 @@ TEST_CASE("Grains below what the bed stands on are not of the bed, at a stage's 
   for (int k = 1; k <= 5; ++k) grains.push_back({R, {0, 0, -10 * k * d}, {}, {}});  // they fall
   Experiment bed(scene, grains, 1e-6);
   const StageResult row = measured(bed.state, scene);
-  CHECK(quantity(row, "grains") == on_plate);
+  CHECK(quantity(row, "grains") == static_cast<double>(on_plate));
   const MeasuredDomain domain = describe_domain(scene, bed.state.symmetry, bed.state.mean_diameter);
   const std::vector<Scalar> numbers =
       bed_numbers(domain, bed_of_frame(domain, bed.state, nullptr), whole_part(domain));

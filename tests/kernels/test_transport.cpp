@@ -112,7 +112,7 @@ double drift_on_plate(int steps) {
     p.position.set(0, x);
     const Seen seen = p.seen.get(0);
     p.seen.set(0, {x, seen.radius, rate * cross(axis, x), seen.mass, rate * axis, seen.material});
-    evaluate_walls<Law, friction, double>(mix, e.state, sums, k == 0 ? 0 : dt, 0);
+    evaluate_walls<Law, friction>(mix, e.state, sums, k == 0 ? 0 : dt, 0);
     if (k == 0) before = c.force.get(row);
   }
   const double of_stress = norm(stored.get(row) - turned(stress, axis, 0.5 * pi)) / norm(stress);
