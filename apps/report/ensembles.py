@@ -236,10 +236,18 @@ def counted(count, thing):
 
 
 def sort_into_vessels(runs):
+    """Runs of one scene in vessels of one size with the same grains; grains of several sizes have another mean in each run, so that
+    widths in d are those of the first run, a full one if there is any."""
     groups = {}
     for run in runs:
-        width = round(2 * run.radius / run.diameter, 2) if run.diameter else 0
-        orifice = round(run.orifice / run.diameter, 2) if run.orifice else None
-        groups.setdefault((run.scene_name, width, orifice, run.count), []).append(run)
-    order = sorted(groups, key=lambda k: ("pile" in k[0], "slot" in k[0], k[1], k[2] or 0, k[3]))
-    return [Vessel(key, groups[key]) for key in order]
+        particles = run.scene.get("particles") or {}
+        grains = str([particles.get(name) for name in ("diameter", "sizes", "file")])
+        size = (round(run.radius, 9), round(run.orifice, 9) if run.orifice else None)
+        groups.setdefault((run.scene_name, *size, run.count, grains), []).append(run)
+    keyed = []
+    for (name, radius, orifice, count, _), members in groups.items():
+        d = min(members, key=lambda run: (run.order, run.seed)).diameter
+        width = round(2 * radius / d, 2) if d else 0
+        keyed.append(((name, width, round(orifice / d, 2) if orifice else None, count), members))
+    keyed.sort(key=lambda item: ("pile" in item[0][0], "slot" in item[0][0], item[0][1], item[0][2] or 0, item[0][3]))
+    return [Vessel(key, members) for key, members in keyed]
