@@ -7,7 +7,7 @@
 
 namespace wedge {
 
-/// What happens at the axis of a sector (PHYSICS, section 3).
+/// What happens at the axis of a sector (apps/scenes/README.md).
 enum class AxisRule {
   clamp,   // a grain that reaches the axis loses its velocity towards it (Yang et al. 2014)
   images,  // every copy acts, a grain's own copies included: exact symmetry

@@ -284,7 +284,7 @@ bool Simulation::came_to_rest() const {
          (memory_.quiet_since >= 0 && state_->time - memory_.quiet_since >= rest_.duration);
 }
 
-/// kernels and PHYSICS know no rest: this is the run's own criterion (apps/scenes/README.md).
+/// kernels know no rest: this is the run's own criterion (apps/scenes/README.md).
 bool Simulation::at_rest() {
   if (state_->particles.count() == 0) return true;
   if (state_->step % look_every != 0) return false;

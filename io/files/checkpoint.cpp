@@ -24,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format_version = 5;
 constexpr std::size_t head_size = 512;  // bytes, the smallest user block of HDF5
 using Head = std::array<char, head_size>;
 
@@ -33,8 +32,8 @@ using Head = std::array<char, head_size>;
 /// Head of a file with `bytes` bytes after the head that have the checksum `hash`.
 Head make_head(std::uint64_t bytes, std::uint64_t hash) {
   Head head{};
-  std::snprintf(head.data(), head.size(), "wedge checkpoint %d\nbytes %020llu\nxxh3_64 %016llx\n", format_version,
-                static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(hash));
+  std::snprintf(head.data(), head.size(), "wedge checkpoint %d\nbytes %020llu\nxxh3_64 %016llx\n",
+                checkpoint_version, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(hash));
   return head;
 }
 
@@ -82,7 +81,7 @@ void verify(const std::string& path) {
   const auto line_end = static_cast<std::size_t>(std::strchr(wanted.data(), '\n') - wanted.data()) + 1;
   if (found.head_read < head_size) throw_file_error(path, "the checkpoint is cut short: it ends within its head");
   if (std::memcmp(found.head.data(), wanted.data(), line_end) != 0) {
-    throw_file_error(path, "is not a wedge checkpoint of version " + std::to_string(format_version));
+    throw_file_error(path, "is not a wedge checkpoint of version " + std::to_string(checkpoint_version));
   }
   if (std::memcmp(found.head.data(), wanted.data(), line_end + std::strlen("bytes ") + 20) != 0) {
     throw_file_error(path, "the checkpoint is cut short or damaged: it holds " + std::to_string(found.bytes) +
@@ -258,7 +257,7 @@ void write_checkpoint(const std::string& path, const State& state, const Checkpo
   PartFile part(path);
   Hdf5Writer file(part, head_size);
   file.attribute("/", "format", "wedge checkpoint");
-  file.attribute("/", "format_version", format_version);
+  file.attribute("/", "format_version", checkpoint_version);
   file.attribute("/", "symmetry", symmetry_text(state.symmetry));
   for_each_number(state, [&](const char* name, auto number) { file.attribute("/", name, number); });
   file.group("energy");

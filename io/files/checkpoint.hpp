@@ -22,6 +22,9 @@ struct CheckpointExtra {
   std::vector<std::pair<std::string, std::string>> run_state;  // in order; no '\0' in keys and values
 };
 
+/// Of the format. A change of what a checkpoint holds, a new field of grains too, is a new version.
+inline constexpr int checkpoint_version = 5;
+
 /// "FOLDER/checkpoint_000000001234.hdf" for step 1234.
 std::string checkpoint_path(const std::string& folder, std::int64_t step);
 

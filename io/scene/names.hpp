@@ -36,7 +36,7 @@ struct Names {
 };
 
 inline const Names<DomainKind> domain_kind_names{
-    {{"full", DomainKind::full}, {"sector", DomainKind::sector}, {"slot", DomainKind::slot}}, {}};
+    {{"full", DomainKind::full}, {"sector", DomainKind::sector}, {"slot", DomainKind::slot}}, {"graded"}};
 inline const Names<Sides> sides_names{
     {{"periodic", Sides::periodic}, {"rigid", Sides::rigid}, {"frictionless", Sides::frictionless}}, {}};
 inline const Names<AxisRule> axis_names{{{"clamp", AxisRule::clamp},
@@ -44,7 +44,7 @@ inline const Names<AxisRule> axis_names{{{"clamp", AxisRule::clamp},
                                          {"pin", AxisRule::pin},
                                          {"line", AxisRule::line},
                                          {"hollow", AxisRule::hollow}},
-                                        {"core"}};
+                                        {}};
 inline const Names<ContactLaw> law_names = [] {
   Names<ContactLaw> names;
   for_each_law([&](const auto& entry) { names.built.emplace_back(entry.name, entry.law); });

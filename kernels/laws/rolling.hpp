@@ -22,7 +22,7 @@ struct RollingInputOf {
 using RollingInput = RollingInputOf<double>;
 
 /// Constant torque against the relative spin: at most mu_r |f_n|, and never more than half of what would stop the
-/// two bodies within the step. (PHYSICS, section 1, has the whole; but the spin seen is a predicted one, and with
+/// two bodies within the step. (Not the whole of it: the spin seen is a predicted one, and with
 /// it a couple of c I w / dt has the roots of z^2 - (1 - 3c/2) z - c/2: at c = 1 one of them is -1, a chatter that
 /// never dies.) inertia: I_i I_j / (I_i + I_j), shared by the contacts of the busier body.
 template <class Real>

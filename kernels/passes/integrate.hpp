@@ -28,7 +28,7 @@ WEDGE_INLINE Real taken(const Real& mass, const Vector3<Real>& v, const Vector3<
 }
 
 /// Angular velocity after a kick of length h by the torque t [N m] while rolling friction resists up to `cap` [N
-/// m]: an exact limiter (PHYSICS: a grain whose spin the cap can stop within the kick stops and stays). `loss`
+/// m]: an exact limiter (a grain whose spin the cap can stop within the kick stops and stays). `loss`
 /// grows by the energy that rolling friction takes [J].
 template <class Real>
 WEDGE_INLINE Vector3<Real> spun(const Vector3<Real>& w, const Vector3<Real>& t, const Real& cap,

@@ -6,8 +6,9 @@
 //              [--budget on|off] [--start FILE] [--write FILE]
 //   bench_step --signature [--precision double|mixed] [--threads T]
 //
-// Case `column`: hopper grains (PHYSICS section 4) in a flat-bottomed cylinder of diameter 0.2 m, settled from a
-// random fill, or from the places in the --start file (lines "x y z" [m], then settled as long), then timed; the
+// Case `column`: hopper grains (Yang et al. 2014, Table 1) in a flat-bottomed cylinder of diameter 0.2 m, settled
+// from a random fill, or from the places in the --start file (lines "x y z" [m], then settled as long), then timed;
+// the
 // --write file gets the settled places. The last line is `particle_steps_per_second <number>`: the median of five
 // windows of S steps.
 //

@@ -66,7 +66,7 @@ TEST_CASE("A record of stages that is missing or none is refused, with what to d
   }
 }
 
-TEST_CASE("Walls at a moment are those of the stage that had begun before it; moving ones have gone on") {
+TEST_CASE("Walls at a moment are those of the stage that had begun before it, and moving ones have gone on") {
   const Scene scene = three_walls();
   const auto present = [&](double time) { return walls_present(vessel_at(scene, record, time)); };
   CHECK(present(0) == record[0].walls);

@@ -20,8 +20,9 @@ namespace {
 void write_with_head(const std::string& path, const std::string& content) {
   std::string head(512, '\0');
   const auto hash = XXH3_64bits(content.data(), content.size());
-  std::snprintf(head.data(), head.size(), "wedge checkpoint 5\nbytes %020llu\nxxh3_64 %016llx\n",
-                static_cast<unsigned long long>(content.size()), static_cast<unsigned long long>(hash));
+  std::snprintf(head.data(), head.size(), "wedge checkpoint %d\nbytes %020llu\nxxh3_64 %016llx\n",
+                checkpoint_version, static_cast<unsigned long long>(content.size()),
+                static_cast<unsigned long long>(hash));
   std::ofstream(path, std::ios::binary | std::ios::trunc) << head << content;
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("options that are known but not built are refused by name", "[scene]")
     CAPTURE(override);
     CHECK(complaint(sound, {override}) == "--set " + override + ": error: " + says);
   };
-  refused("domain.axis=core", "axis 'core' is known but not built yet; use clamp, images, pin, line or hollow");
+  refused("domain.kind=graded", "kind 'graded' is known but not built yet; use full, sector or slot");
 }
 
 TEST_CASE("what cannot be is refused", "[scene]") {

@@ -72,7 +72,7 @@ TEST_CASE("elastic Hertz impact on a rigid plane: Chung & Ooi (2011), test 2", "
 TEST_CASE("restitution of the default law depends on c_n alone", "[impact]") {
   struct Row {
     double damping, pulls, clipped;
-  };  // PHYSICS section 1
+  };  // the oscillator of each law, integrated
   const char* source = "separate integration of the normal law";
   KnownAnswer pulls("03a", "restitution for c_n 0.05 ... 0.5, two speeds", source, Measure::absolute);
   KnownAnswer clipped("03b", "restitution with `tension = \"none\"`", source, Measure::absolute);

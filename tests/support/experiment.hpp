@@ -23,7 +23,7 @@ inline Scene plain_scene(double young, double poisson, double density, double sl
   return s;
 }
 
-/// The hopper's and the sandpile's grains of PHYSICS section 4.
+/// The hopper's and the sandpile's grains of Yang et al. 2014, Tables 1 and 2.
 inline Scene hopper_material(double damping = 0.3) {
   Scene s = plain_scene(1e7, 0.3, 3800, 0.6, damping);
   s.interactions(0, 0).rolling = 0.02 * 0.005;
